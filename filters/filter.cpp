@@ -1,0 +1,45 @@
+// The catalogue of filters, built from the list in CMakeLists.txt.
+#include "filters/filter.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/names.h"
+
+namespace moire {
+
+#define MOIRE_ITEM(name) extern const FilterInfo name##_filter;
+#include "filters_plugins.inc"
+#undef MOIRE_ITEM
+
+namespace {
+#define MOIRE_ITEM(name) &name##_filter,
+constexpr auto kFilters = std::to_array<const FilterInfo*>({
+#include "filters_plugins.inc"
+});
+#undef MOIRE_ITEM
+
+std::string owner(std::string_view name) { return "filter \"" + std::string(name) + "\""; }
+}  // namespace
+
+std::span<const FilterInfo* const> filters() { return kFilters; }
+
+const FilterInfo& find_filter(std::string_view name, std::string_view place) {
+  std::vector<std::string_view> known;
+  for (const FilterInfo* f : kFilters) {
+    if (f->name == name) return *f;
+    known.push_back(f->name);
+  }
+  throw Error(std::string(place), unknown_name("filter", name, known));
+}
+
+Filter::Filter(const Spec& spec)
+    : info_(&find_filter(spec.name, spec.place)),
+      args_(owner(spec.name), info_->params, spec.given, spec.place),
+      text_(spec.text),
+      kernel_(std::make_shared<const Kernel>(info_->make(args_))) {}
+
+int Filter::apron() const noexcept { return static_cast<int>(std::ceil(radius() - 0.5)); }
+
+}  // namespace moire

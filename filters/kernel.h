@@ -1,0 +1,79 @@
+// A reconstruction kernel in one dimension: piecewise Chebyshev series for k and its antiderivative K.
+//
+// One code path for all kernels: a polynomial kernel is its own series, a smooth one (Gaussian) is fitted to rounding.
+// Everything is normalised by the integral of the same pieces, so K runs from exactly 0 to exactly 1. Distances in
+// pixels from the kernel's centre. Half-open: k(x) = 0 for x < -radius and for x >= radius.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/double_double.h"
+
+namespace moire {
+
+// What a plug-in gives: see FilterType in filter.h.
+struct KernelShape {
+  std::vector<double> knots;
+  int degree = -1;
+  std::function<Dd(int piece, Dd x)> shape;
+  std::function<double(int piece, double rho)> ellipse_bound;
+};
+
+class Kernel {
+ public:
+  explicit Kernel(const KernelShape& shape);
+
+  double radius() const noexcept { return knots_.back(); }
+  // k is a polynomial of degree() between knots; the first knot is -radius, the last +radius.
+  std::span<const double> knots() const noexcept { return knots_; }
+  int pieces() const noexcept { return static_cast<int>(knots_.size()) - 1; }
+  int degree() const noexcept { return degree_; }
+
+  double k(double x) const noexcept;
+  double K(double x) const noexcept;  // integral of k from -radius to x
+  // out[i] = k(x[i]).
+  void weights(std::span<const double> x, std::span<double> out) const noexcept;
+  // k = 1 on [-1/2, 1/2): every weight is exactly 1, so that weight sums are counts.
+  bool is_unit_box() const noexcept { return unit_box_; }
+
+  // The piece that x lies in, -1 left of the support, pieces() right of it.
+  int piece_of(double x) const noexcept;
+  // The polynomials of one piece, also usable a little beyond its ends.
+  double k_piece(int piece, double x) const noexcept;
+  double K_piece(int piece, double x) const noexcept;
+  // Bounds on their absolute values over the Bernstein ellipse of parameter rho around the piece.
+  double k_on_ellipse(int piece, double rho) const noexcept;
+  double K_on_ellipse(int piece, double rho) const noexcept;
+  double half_length(int piece) const noexcept { return pieces_[static_cast<std::size_t>(piece)].half; }
+
+  // Integral of the shape before normalisation.
+  double integral() const noexcept { return integral_; }
+  // Bounds over the whole support: |k|, |K|, and the slope |k'| inside pieces.
+  double k_max() const noexcept { return k_max_; }
+  double K_max() const noexcept { return K_max_; }
+  double slope_max() const noexcept { return slope_max_; }
+  // The largest jump of k at a knot, the ends of the support included.
+  double jump_max() const noexcept { return jump_max_; }
+  // Bounds on |k() - true k| and |K() - true K| at the same x, the rounding of the evaluation included. "True" is the
+  // plug-in's closed form divided by its own integral.
+  double k_error() const noexcept { return k_error_; }
+  double K_error() const noexcept { return K_error_; }
+
+ private:
+  struct Piece {
+    double mid, half, inverse_half;
+    std::size_t k_first, K_first;  // into coefficients_: degree_ + 1 of k, degree_ + 2 of K
+  };
+  double evaluate(std::size_t first, int degree, double t) const noexcept;
+
+  std::vector<double> knots_;
+  std::vector<Piece> pieces_;
+  std::vector<double> coefficients_;
+  int degree_ = 0;
+  bool unit_box_ = false;
+  double integral_ = 0, k_max_ = 0, K_max_ = 0, slope_max_ = 0, jump_max_ = 0, k_error_ = 0, K_error_ = 0;
+};
+
+}  // namespace moire

@@ -1,0 +1,31 @@
+// The door between the program and its module moire_io. Both are built together, by the same compiler.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/images.h"
+
+namespace moire {
+
+// Each returns what went wrong, empty when nothing did, and writes exactly the file that it is told to.
+struct ImageIo {
+  std::string (*write_exr)(const std::string& path, Grid grid, std::span<const float> y,
+                           const std::vector<Attribute>& attributes, const std::string& software);
+  std::string (*read_exr)(const std::string& path, ExrImage& image);
+  std::string (*write_png)(const std::string& path, const Raster& raster, const std::string& software);
+  std::string (*read_png)(const std::string& path, Raster& raster);
+};
+
+// The module's functions, by file.
+std::string write_exr_file(const std::string& path, Grid grid, std::span<const float> y,
+                           const std::vector<Attribute>& attributes, const std::string& software);
+std::string read_exr_file(const std::string& path, ExrImage& image);
+std::string write_png_file(const std::string& path, const Raster& raster, const std::string& software);
+std::string read_png_file(const std::string& path, Raster& raster);
+
+}  // namespace moire
+
+// The module's one entry point, and the one name that it shows.
+extern "C" [[gnu::visibility("default")]] const moire::ImageIo* moire_io();

@@ -1,0 +1,238 @@
+// The report as Markdown.
+#include "reports/markdown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "reports/cases.h"
+
+namespace moire {
+namespace {
+
+constexpr const char kNone[] = "-";
+
+// A name in a table cell.
+std::string code(std::string_view name) {
+  std::string out = "`";
+  for (const char c : name) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out + "`";
+}
+
+std::string bracketed(const Row& row, const std::string& name, const char* format) {
+  const double lo = row.number(name + "_lo"), hi = row.number(name + "_hi");
+  if (!std::isfinite(lo) || !std::isfinite(hi)) return {};
+  return fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), lo), fmt::format(fmt::runtime(format), hi));
+}
+
+std::string error_text(const Row* row) {
+  if (row == nullptr || !std::isfinite(row->number("rmse_active"))) return kNone;
+  return fmt::format("{:.2e}", row->number("rmse_active")) + bracketed(*row, "rmse_active", "{:.2e}") +
+         (row->flag("reference_limited") ? " ~" : "");
+}
+
+std::string slope_text(const Row* row) {
+  if (row == nullptr || !std::isfinite(row->number("slope"))) return kNone;
+  return fmt::format("{:.3f}", row->number("slope")) + bracketed(*row, "slope", "{:.3f}");
+}
+
+// A table with one column per kernel.
+void add_table(std::string& out, const std::string& corner, const std::vector<Kernel>& kernels,
+               const std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>>& lines) {
+  out += "| " + corner + " |";
+  for (const Kernel& k : kernels) out += fmt::format(" {} |", code(k.label()));
+  out += "\n|:--|";
+  for (std::size_t i = 0; i < kernels.size(); ++i) out += ":--|";
+  out += "\n";
+  for (const auto& [head, cell] : lines) {
+    out += "| " + head + " |";
+    for (const Kernel& k : kernels) out += fmt::format(" {} |", cell(k));
+    out += "\n";
+  }
+  out += "\n";
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + code(name);
+  return out;
+}
+
+struct Report {
+  const Cases& raw;
+  const Cases& cases;
+  const Cases& slopes;
+  std::int64_t largest_spp;
+};
+
+void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
+  std::vector<std::string> filters, estimators, spp;
+  for (const Kernel& k : r.raw.kernels()) {
+    if (std::find(filters.begin(), filters.end(), k.filter) == filters.end()) filters.push_back(k.filter);
+    if (std::find(estimators.begin(), estimators.end(), k.estimator) == estimators.end()) {
+      estimators.push_back(k.estimator);
+    }
+  }
+  for (const std::int64_t n : r.raw.spp()) spp.push_back(std::to_string(n));
+  double trials = 0;
+  for (const Row& row : rows) trials = std::fmax(trials, row.number("trial") + 1);
+
+  out += "## What was run\n\n";
+  for (const std::string& scene : r.raw.scenes()) {
+    out += "- scene " + code(scene);
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& x) { return x.text("scene") == scene; });
+    if (std::isfinite(row->number("width"))) {
+      out += fmt::format(": {:.0f} x {:.0f} pixels", row->number("width"), row->number("height"));
+    }
+    out += "\n";
+  }
+  out += "- patterns: " + list(r.raw.patterns()) + "\n";
+  out += "- samples per pixel: " + fmt::format("{}", fmt::join(spp, ", ")) + "\n";
+  out += "- filters: " + list(filters) + "\n";
+  out += "- estimators: " + list(estimators) + "\n";
+  out += fmt::format("- trials: {:.0f} of patterns that vary, 1 of others", trials);
+  if (!rows.empty() && rows.front().find("seed") != nullptr) {
+    const Cell& seed = *rows.front().find("seed");
+    if (const auto* number = std::get_if<std::int64_t>(&seed)) out += fmt::format("; seed {}", *number);
+    if (const auto* text = std::get_if<std::string>(&seed)) out += "; seed " + *text;
+  }
+  out += fmt::format("\n- rows: {}", rows.size());
+  const auto bad = std::count_if(rows.begin(), rows.end(), [](const Row& row) {
+    return !row.text("status").empty() && row.text("status") != "ok";
+  });
+  if (bad > 0) out += fmt::format(", of which {} are not ok (see `status` in results.csv)", bad);
+  out += "\n\n";
+}
+
+// Patterns by their error at the largest sample count, best first; those without a value are not ranked.
+std::vector<const Row*> ranked(const Report& r, const std::string& scene, const Kernel& kernel) {
+  std::vector<const Row*> order;
+  for (const std::string& pattern : r.cases.patterns()) {
+    const Row* row = r.cases.first(scene, pattern, kernel, r.largest_spp);
+    if (row != nullptr && std::isfinite(row->number("rmse_active"))) order.push_back(row);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Row* a, const Row* b) { return a->number("rmse_active") < b->number("rmse_active"); });
+  return order;
+}
+
+// Where an interval is missing, the value itself stands for it.
+double end_or_value(const Row& row, const char* name) {
+  return std::isfinite(row.number(name)) ? row.number(name) : row.number("rmse_active");
+}
+
+void add_ranking(std::string& out, const Report& r) {
+  out += fmt::format("## The answer: patterns by error at {} samples per pixel\n\n", r.largest_spp);
+  out +=
+      "RMSE over active pixels (those that the scene's boundary may touch), full coverage = 1; `=` where the 95% "
+      "interval meets that of the best.\n\n";
+  for (const std::string& scene : r.cases.scenes()) {
+    out += "### " + code(scene) + "\n\n";
+    std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>> lines;
+    for (std::size_t rank = 0; rank < r.cases.patterns().size(); ++rank) {
+      lines.emplace_back(std::to_string(rank + 1), [&r, &scene, rank](const Kernel& kernel) -> std::string {
+        const auto order = ranked(r, scene, kernel);
+        if (rank >= order.size()) return kNone;
+        const Row &row = *order[rank], &best = *order[0];
+        const bool close = rank > 0 && end_or_value(row, "rmse_active_lo") <= end_or_value(best, "rmse_active_hi");
+        return code(row.text("pattern")) + fmt::format(" {:.2e}", row.number("rmse_active")) + (close ? " =" : "");
+      });
+    }
+    add_table(out, "rank", r.cases.kernels(), lines);
+  }
+}
+
+// The worst pixel of all trials at the largest sample count.
+std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern, const Kernel& kernel) {
+  const Row* worst = nullptr;
+  for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
+    const double size = row->number("max_abs_active");
+    if (std::isfinite(size) && (worst == nullptr || size > worst->number("max_abs_active"))) worst = row;
+  }
+  if (worst == nullptr || !std::isfinite(worst->number("max_x_active"))) return kNone;
+  return fmt::format("({:.0f}, {:.0f}): got {:.6f}, exact {:.6f}", worst->number("max_x_active"),
+                     worst->number("max_y_active"), worst->number("max_got_active"), worst->number("max_want_active"));
+}
+
+// The image of the first trial that has one, at the largest sample count.
+std::string image_text(const Report& r, const std::string& scene, const std::string& pattern, const Kernel& kernel,
+                       const char* column, const char* what) {
+  for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
+    if (!row->text(column).empty()) return fmt::format("![{}]({})", what, row->text(column));
+  }
+  return kNone;
+}
+
+void add_pattern(std::string& out, const Report& r, const std::string& pattern) {
+  out += "## " + code(pattern) + "\n\n";
+  for (const std::string& scene : r.cases.scenes()) {
+    const auto& kernels = r.cases.kernels();
+    const bool any = std::any_of(kernels.begin(), kernels.end(), [&](const Kernel& k) {
+      return std::any_of(r.cases.spp().begin(), r.cases.spp().end(),
+                         [&](std::int64_t spp) { return r.cases.first(scene, pattern, k, spp) != nullptr; });
+    });
+    if (!any) continue;
+    out += "### " + code(pattern) + " on " + code(scene) + "\n\n";
+    std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>> lines;
+    for (const std::int64_t spp : r.cases.spp()) {
+      lines.emplace_back(std::to_string(spp),
+                         [&, spp](const Kernel& k) { return error_text(r.cases.first(scene, pattern, k, spp)); });
+    }
+    lines.emplace_back("slope", [&](const Kernel& k) { return slope_text(r.slopes.first(scene, pattern, k)); });
+    lines.emplace_back("worst pixel", [&](const Kernel& k) { return worst_text(r, scene, pattern, k); });
+    for (const auto& [column, what] : {std::pair("image_got_png", "image"), std::pair("image_error_png", "error")}) {
+      const auto image = [&r, &scene, &pattern, column = column, what = what](const Kernel& k) {
+        return image_text(r, scene, pattern, k, column, what);
+      };
+      if (std::any_of(kernels.begin(), kernels.end(), [&](const Kernel& k) { return image(k) != kNone; })) {
+        lines.emplace_back(what, image);
+      }
+    }
+    add_table(out, "samples per pixel", kernels, lines);
+  }
+}
+
+void add_notes(std::string& out, const Summary& summary, const Report& r) {
+  out += "## How to read this\n\n";
+  out +=
+      "- Errors are got - exact; RMSE is the root of the mean squared error over active pixels and trials. Brackets "
+      "hold 95% intervals over trials; the method is in `ci_method` of summary.csv. One trial has no interval.\n";
+  out +=
+      "- The slope is that of log RMSE against log samples per pixel (-0.5: Monte Carlo), by least squares; its "
+      "interval comes from resampling whole trials.\n";
+  out += fmt::format(
+      "- Worst pixel (x, y) and images: at {} samples per pixel. Error images: blue is too little, light "
+      "grey is exact, red is too much; the range (99.5% of |error| over active pixels, either side) is "
+      "in the file's text chunk `moire:range`.\n",
+      r.largest_spp);
+  out += "- `~`: below 10 times the exact values' own error bound; such errors are no points of a slope.\n";
+  bool first = true;
+  for (const Row& row : summary.slopes) {
+    if (row.text("left_out").empty()) continue;
+    if (first) out += "- Sample counts left out of slopes:\n";
+    first = false;
+    out += "  - " + code(row.text("pattern")) + " on " + code(row.text("scene")) + ", " + code(row.text("filter")) +
+           ": " + std::string(row.text("left_out")) + "\n";
+  }
+}
+
+}  // namespace
+
+std::string markdown_report(std::string_view study_name, const Table& rows, const Summary& summary) {
+  const Cases raw(rows), cases(summary.rows), slopes(summary.slopes);
+  const Report report{raw, cases, slopes, cases.spp().empty() ? 0 : cases.spp().back()};
+  std::string out = "# " + std::string(study_name) + "\n\n";
+  if (rows.empty()) return out + "No rows.\n";
+  if (!summary.rows.empty()) add_ranking(out, report);
+  add_what_was_run(out, rows, report);
+  for (const std::string& pattern : cases.patterns()) add_pattern(out, report, pattern);
+  add_notes(out, summary, report);
+  return out;
+}
+
+}  // namespace moire

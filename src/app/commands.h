@@ -1,0 +1,62 @@
+// The commands of the program and their options. Each writes its data to standard output, returns the exit code and
+// throws Error for everything that is wrong.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "core/error.h"
+
+namespace moire {
+
+// Text that was asked for by --help or --version.
+struct TextOptions {
+  std::string text;
+};
+
+struct ListOptions {
+  std::string what;  // patterns, filters, scenes, studies or measures
+  bool json = false;
+};
+
+struct RunOptions {
+  std::string study;   // a file, or the name of a built-in study
+  std::string folder;  // of the results
+  int threads = 0;     // 0: as many as there are cores
+  bool dry_run = false;
+};
+
+struct RenderOptions {
+  std::string scene, pattern, filter, estimator;
+  std::int64_t spp = 0;
+  std::uint64_t seed = 1;
+  std::uint32_t trial = 0;
+  std::string out, error;  // paths of the images, "": none
+  bool exhaustive = false, json = false;
+};
+
+struct ExactOptions {
+  std::string scene, filter;
+  std::string out;     // path of the image, or
+  std::string pixels;  // path of a list of pixels
+};
+
+struct PointsOptions {
+  std::string pattern;
+  std::int64_t n = 0;
+  int dims = 2;
+  std::uint64_t seed = 1;
+  std::uint32_t trial = 0;
+};
+
+using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions>;
+
+Exit execute(const TextOptions& options);
+Exit execute(const ListOptions& options);
+Exit execute(const RunOptions& options);
+Exit execute(const RenderOptions& options);
+Exit execute(const ExactOptions& options);
+Exit execute(const PointsOptions& options);
+
+}  // namespace moire

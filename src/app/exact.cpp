@@ -1,0 +1,89 @@
+// moire exact: the exact image, or exact values of single pixels with their bounds.
+#include "engine/exact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/image_files.h"
+#include "app/output.h"
+#include "app/scene_argument.h"
+#include "core/parallel.h"
+#include "study/file_names.h"
+#include "study/run.h"
+#include "study/study.h"
+#include "study/text_file.h"
+
+namespace moire {
+namespace {
+
+// One whole number from the front of `text`; what follows is left.
+bool take_integer(std::string_view& text, std::int64_t& out) {
+  const char* begin = text.data();
+  const auto [end, status] = std::from_chars(begin, begin + text.size(), out);
+  text.remove_prefix(static_cast<std::size_t>(end - begin));
+  return status == std::errc();
+}
+
+Pixel parse_pixel(std::string_view line, const std::string& file, std::size_t number) {
+  const std::string_view whole = line;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  Pixel pixel;
+  const bool x = take_integer(line, pixel.x);
+  const bool comma = x && line.starts_with(',');
+  if (comma) line.remove_prefix(1);
+  if (comma && take_integer(line, pixel.y) && line.empty()) return pixel;
+  const auto column = static_cast<std::size_t>(line.data() - whole.data()) + 1;
+  throw Error(fmt::format("{}:{}:{}", file, number, column),
+              fmt::format("\"{}\" is no pixel; write x,y, two whole numbers of 64 bits", whole.substr(0, 60)));
+}
+
+std::vector<Pixel> parse_pixels(std::string_view text, const std::string& file) {
+  std::vector<Pixel> pixels;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    pixels.push_back(parse_pixel(text.substr(0, end), file, number));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return pixels;
+}
+
+void print_pixels(const NamedScene& scene, const Filter& filter, const std::vector<Pixel>& pixels) {
+  print("x,y,value,bound\n");
+  constexpr std::size_t kBlock = 1 << 14;  // pixels computed, then printed, at a time
+  std::vector<Exact> values(kBlock);
+  for (std::size_t begin = 0; begin < pixels.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, pixels.size() - begin);
+    parallel_for(
+        count, [&](std::size_t i) { values[i] = exact_pixel(scene.image, filter, pixels[begin + i]); }, 64);
+    std::string lines;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pixel& p = pixels[begin + i];
+      fmt::format_to(std::back_inserter(lines), "{},{},{:.17g},{:.17g}\n", p.x, p.y, values[i].value, values[i].bound);
+    }
+    print(lines);
+  }
+}
+
+}  // namespace
+
+Exit execute(const ExactOptions& options) {
+  check_image_path("-o", options.out);
+  Study study;
+  study.scenes = {load_scene(options.scene)};
+  study.filters = {Filter(parse_spec(options.filter, "--filter"))};
+  if (!options.pixels.empty()) {
+    print_pixels(study.scenes[0], study.filters[0], parse_pixels(read_text(options.pixels), options.pixels));
+    return Exit::ok;
+  }
+  check_image_size(study.scenes[0], "-o");
+  write_exact_exr(options.out, study, 0, 0, find_truth(study.scenes[0].image, study.filters[0]));
+  return Exit::ok;
+}
+
+}  // namespace moire

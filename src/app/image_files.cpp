@@ -1,0 +1,111 @@
+// Writing the images of cases: float EXR with what defines the image, and PNG previews.
+#include "app/image_files.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "app/definition.h"
+#include "reports/images.h"
+#include "reports/preview.h"
+#include "study/file_names.h"
+
+namespace moire {
+namespace {
+
+// -0.0 becomes +0.0; all else stays.
+float to_float(double value) { return static_cast<float>(value) + 0.0F; }
+
+// A dense image from the values of the active pixels. Flat pixels are 0 or 1, or all 0 when `is_error`.
+std::vector<float> dense(const ActiveRows& rows, std::span<const double> active, bool is_error) {
+  const Grid grid = rows.grid();
+  std::vector<float> image(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  auto out = image.begin();
+  auto next = active.begin();
+  for (int y = 0; y < grid.height; ++y) {
+    for (const Run& run : rows.row(y)) {
+      const auto count = static_cast<std::ptrdiff_t>(run.x1 - run.x0);
+      if (run.cover == Cover::partial) {
+        std::transform(next, next + count, out, to_float);
+        next += count;
+      } else if (run.cover == Cover::all && !is_error) {
+        std::fill_n(out, count, 1.0F);
+      }
+      out += count;
+    }
+  }
+  return image;
+}
+
+std::vector<float> dense_got(const Truth& truth, const CaseResult& result) {
+  if (!result.got.dense) return dense(truth.rows, result.got.value, false);
+  std::vector<float> image(result.got.value.size());
+  std::transform(result.got.value.begin(), result.got.value.end(), image.begin(), to_float);
+  return image;
+}
+
+std::vector<float> dense_error(const Truth& truth, const CaseResult& result) {
+  return dense(truth.rows, result.error, true);
+}
+
+std::vector<Attribute> exact_attributes(const Study& study, std::uint32_t scene, std::uint32_t filter) {
+  return {{"moire:schema", "moire.image/1"},
+          {"moire:kind", "exact"},
+          {"moire:scene", scene_json(study.scenes[scene])},
+          {"moire:filter", study.filters[filter].text()},
+          {"moire:params", params_json(nullptr, study.filters[filter])}};
+}
+
+std::vector<Attribute> case_attributes(const char* kind, const Study& study, const Case& c) {
+  const PatternChoice& pattern = study.patterns[c.pattern];
+  const Filter& filter = study.filters[c.filter];
+  return {{"moire:schema", "moire.image/1"},
+          {"moire:kind", kind},
+          {"moire:scene", scene_json(study.scenes[c.scene])},
+          {"moire:pattern", pattern.text()},
+          {"moire:filter", filter.text()},
+          {"moire:estimator", study.estimators[c.estimator].text},
+          {"moire:spp", std::int64_t{study.spp[c.spp]}},
+          {"moire:seed", static_cast<std::int64_t>(study.seed)},
+          {"moire:trial", std::int64_t{c.trial}},
+          {"moire:params", params_json(&pattern, filter)}};
+}
+
+}  // namespace
+
+void write_exact_exr(const std::string& path, const Study& study, std::uint32_t scene, std::uint32_t filter,
+                     const Truth& truth) {
+  write_exr(path, truth.rows.grid(), dense(truth.rows, truth.exact.value, false),
+            exact_attributes(study, scene, filter));
+}
+
+void write_got_exr(const std::string& path, const Study& study, const Case& c, const Truth& truth,
+                   const CaseResult& result) {
+  write_exr(path, truth.rows.grid(), dense_got(truth, result), case_attributes("got", study, c));
+}
+
+void write_error_exr(const std::string& path, const Study& study, const Case& c, const Truth& truth,
+                     const CaseResult& result) {
+  write_exr(path, truth.rows.grid(), dense_error(truth, result), case_attributes("error", study, c));
+}
+
+void write_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter,
+                        const Truth& truth) {
+  const std::string stem = folder + "/" + exact_stem(study, scene, filter);
+  const std::vector<float> image = dense(truth.rows, truth.exact.value, false);
+  write_exr(stem + ".exact.exr", truth.rows.grid(), image, exact_attributes(study, scene, filter));
+  write_png(stem + ".exact.png", reconstruction_preview(truth.rows.grid(), image));
+}
+
+void write_case_images(const std::string& folder, const Study& study, const Case& c, const Truth& truth,
+                       const CaseResult& result) {
+  const Grid grid = truth.rows.grid();
+  const std::string stem = folder + "/" + image_stem(study, c);
+  const std::vector<float> got = dense_got(truth, result), error = dense_error(truth, result);
+  write_exr(stem + ".got.exr", grid, got, case_attributes("got", study, c));
+  write_exr(stem + ".error.exr", grid, error, case_attributes("error", study, c));
+  write_png(stem + ".got.png", reconstruction_preview(grid, got));
+  write_png(stem + ".error.png", error_preview(grid, error, result.active.p995));
+}
+
+}  // namespace moire

@@ -1,0 +1,38 @@
+// moire points: a pattern's points in one pixel.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "patterns/pattern.h"
+
+namespace moire {
+
+Exit execute(const PointsOptions& options) {
+  const PatternChoice choice(parse_spec(options.pattern, "PATTERN"));
+  if (options.dims != 2) {
+    throw Error("--dims",
+                fmt::format("pattern \"{}\" has points in 2 dimensions, without a time; give 2", choice.info().name));
+  }
+  choice.require_count(options.n);
+  const Pattern pattern(choice, static_cast<int>(options.n), Draw{options.seed, options.trial});
+  const auto n = static_cast<std::size_t>(options.n);
+  std::vector<double> x(n), y(n);
+  pattern.fill_set({x, y});
+
+  print("x,y\n");
+  constexpr std::size_t kBlock = 4096;  // lines printed at a time
+  for (std::size_t begin = 0; begin < n; begin += kBlock) {
+    std::string lines;
+    for (std::size_t i = begin; i < std::min(n, begin + kBlock); ++i) {
+      fmt::format_to(std::back_inserter(lines), "{:.17g},{:.17g}\n", x[i], y[i]);
+    }
+    print(lines);
+  }
+  return Exit::ok;
+}
+
+}  // namespace moire

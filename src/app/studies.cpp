@@ -1,0 +1,42 @@
+// Studies that are part of the program, and study files.
+#include "app/studies.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "core/error.h"
+#include "core/names.h"
+#include "study/text_file.h"
+
+namespace moire {
+namespace {
+
+constexpr BuiltinStudy kStudies[] = {
+#include "builtin_studies.inc"
+};
+
+}  // namespace
+
+std::span<const BuiltinStudy> builtin_studies() { return kStudies; }
+
+std::string_view study_title(std::string_view text) {
+  if (!text.starts_with("# ")) return {};
+  text.remove_prefix(2);
+  return text.substr(0, text.find('\n'));
+}
+
+Study load_study(const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const BuiltinStudy& study : builtin_studies()) {
+    if (study.name == word) return parse_study(study.text, word + ".toml", word);
+    names.push_back(study.name);
+  }
+  const std::filesystem::path path(word);
+  if (word.find('/') == std::string::npos && path.extension() != ".toml" && !std::filesystem::exists(path)) {
+    throw Error("STUDY", unknown_name("built-in study", word, names) + "; or give a file, NAME.toml");
+  }
+  return parse_study(read_text(word), word, path.stem().string());
+}
+
+}  // namespace moire

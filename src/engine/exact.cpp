@@ -1,0 +1,68 @@
+#include "engine/exact.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "engine/boundary_integral.h"
+
+namespace moire {
+namespace {
+
+// The scene's boundary in one window, integrated. Buffers are kept from pixel to pixel.
+class PixelIntegrator {
+ public:
+  PixelIntegrator(const TestImage& scene, const Filter& filter)
+      : scene_(scene), kernel_(filter.kernel()), integral_(filter.kernel()) {}
+
+  Exact operator()(Pixel pixel) {
+    boundary_.clear();
+    integral_.reset();
+    scene_.boundary(pixel, kernel_.radius(), boundary_);
+    for (const Segment& s : boundary_.segments) integral_.add(s);
+    for (const Circle& c : boundary_.circles) integral_.add(c);
+    // Where the described set differs from the scene, the integral differs by at most max |k k| times that area.
+    const double weight_max = kernel_.k_max() * kernel_.k_max();
+    return {integral_.value() + 0.0, integral_.bound() + boundary_.area_error * weight_max};
+  }
+
+ private:
+  const TestImage& scene_;
+  const Kernel& kernel_;
+  BoundaryIntegral integral_;
+  Boundary boundary_;
+};
+
+}  // namespace
+
+Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel) {
+  switch (classify(scene, filter.radius(), pixel)) {
+    case Cover::none: return {0, 0};
+    case Cover::all: return {1, 0};
+    case Cover::partial: break;
+  }
+  return PixelIntegrator(scene, filter)(pixel);
+}
+
+Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows) {
+  Reference reference;
+  reference.value.resize(static_cast<std::size_t>(rows.active_pixels()));
+  reference.bound.resize(reference.value.size());
+  parallel_for(static_cast<std::size_t>(rows.grid().height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    auto index = static_cast<std::size_t>(rows.first_active(y));
+    if (rows.first_active(y) == rows.first_active(y + 1)) return;
+    PixelIntegrator integrate(scene, filter);
+    for (const Run& run : rows.row(y)) {
+      if (run.cover != Cover::partial) continue;
+      for (std::int32_t x = run.x0; x < run.x1; ++x, ++index) {
+        const Exact e = integrate({x, y});
+        reference.value[index] = e.value;
+        reference.bound[index] = e.bound;
+      }
+    }
+  });
+  for (const double b : reference.bound) reference.max_bound = std::max(reference.max_bound, b);
+  return reference;
+}
+
+}  // namespace moire

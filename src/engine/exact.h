@@ -1,0 +1,27 @@
+// Exact filtered pixel values by one boundary integral for every separable filter, each with a guaranteed bound.
+#pragma once
+
+#include <vector>
+
+#include "engine/active_rows.h"
+#include "filters/filter.h"
+#include "testimages/testimage.h"
+
+namespace moire {
+
+// |value - truth| <= bound, truth = integral of scene times normalised kernel for the stored doubles.
+struct Exact {
+  double value = 0, bound = 0;
+};
+
+// The exact value of one pixel, also outside the image. Pixels that are not active are exactly 0 or 1 with bound 0.
+Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel);
+
+// The exact values of the active pixels, row-major as for_each_active counts them.
+struct Reference {
+  std::vector<double> value, bound;
+  double max_bound = 0;
+};
+Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows);
+
+}  // namespace moire

@@ -1,0 +1,257 @@
+// Cells are sampled and summed row by row, each once, in bands that fit in memory; pixels are reconstructed as soon as
+// the cell rows that their windows touch are there. A band's rows are done in parallel, each into its own slots.
+#include "engine/render.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <deque>
+
+#include "core/error.h"
+#include "core/names.h"
+#include "core/parallel.h"
+#include "engine/cell_sums.h"
+
+namespace moire {
+namespace {
+
+constexpr auto kEstimatorNames = std::to_array<std::string_view>({"ratio"});
+
+// Points generated and tested at a time, unless one pixel has more.
+constexpr int kBatch = 1024;
+// Sums kept for a band of cell rows, bytes: enough work for all threads, little beside any image.
+constexpr std::int64_t kBandBytes = 16 << 20;
+
+// Pixels x0 <= x < x1.
+struct Interval {
+  int x0, x1;
+};
+
+// The pixels of each row that are reconstructed, as sorted disjoint intervals.
+using Wanted = std::vector<std::vector<Interval>>;
+
+Wanted wanted_pixels(const ActiveRows& rows, bool exhaustive) {
+  Wanted wanted(static_cast<std::size_t>(rows.grid().height));
+  for (int y = 0; y < rows.grid().height; ++y) {
+    auto& row = wanted[static_cast<std::size_t>(y)];
+    if (exhaustive) {
+      row.push_back({0, rows.grid().width});
+      continue;
+    }
+    for (const Run& r : rows.row(y)) {
+      if (r.cover == Cover::partial) row.push_back({r.x0, r.x1});
+    }
+  }
+  return wanted;
+}
+
+// One row of cells whose samples are needed, with their sums.
+struct CellRow {
+  std::vector<Interval> cells;
+  std::vector<std::size_t> first;  // of each interval, in cells
+  std::vector<WeightSum> sums;     // side * side per cell
+  std::vector<OwnCount> own;
+
+  std::size_t index(int x) const {
+    const auto it = std::upper_bound(cells.begin(), cells.end(), x, [](int v, const Interval& c) { return v < c.x0; });
+    const auto i = static_cast<std::size_t>(it - cells.begin()) - 1;
+    return first[i] + static_cast<std::size_t>(x - cells[i].x0);
+  }
+};
+
+class Renderer {
+ public:
+  Renderer(const TestImage& scene, const Pattern& pattern, const Filter& filter, const Wanted& wanted, Grid grid)
+      : scene_(scene),
+        pattern_(pattern),
+        kernel_(filter.kernel()),
+        reach_(filter.apron()),
+        side_(static_cast<std::size_t>(2 * reach_ + 1)),
+        wanted_(wanted),
+        grid_(grid) {}
+
+  // The cells of row y that the windows of wanted pixels touch.
+  CellRow cell_row(int y) const {
+    std::vector<Interval> all;
+    for (int j = std::max(0, y - reach_); j <= std::min(grid_.height - 1, y + reach_); ++j) {
+      for (const Interval& w : wanted_[static_cast<std::size_t>(j)]) all.push_back({w.x0 - reach_, w.x1 + reach_});
+    }
+    std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.x0 < b.x0; });
+    CellRow row;
+    for (const Interval& c : all) {
+      if (!row.cells.empty() && c.x0 <= row.cells.back().x1) {
+        row.cells.back().x1 = std::max(row.cells.back().x1, c.x1);
+      } else {
+        row.cells.push_back(c);
+      }
+    }
+    std::size_t count = 0;
+    for (const Interval& c : row.cells) {
+      row.first.push_back(count);
+      count += static_cast<std::size_t>(c.x1 - c.x0);
+    }
+    row.own.resize(count);
+    return row;
+  }
+
+  std::int64_t bytes(const CellRow& row) const {
+    return static_cast<std::int64_t>(row.own.size() * (sizeof(OwnCount) + side_ * side_ * sizeof(WeightSum)));
+  }
+
+  // Generates, tests and sums the samples of a row's cells.
+  void sample(int y, CellRow& row) const {
+    const auto n = static_cast<std::size_t>(pattern_.n());
+    const int together = std::max(1, kBatch / pattern_.n());
+    std::vector<Pixel> run;
+    std::vector<double> xs, ys;
+    std::vector<std::uint8_t> inside, needed(side_ * side_);
+    CellSums sum(kernel_, reach_);
+    row.sums.resize(row.own.size() * side_ * side_);
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      for (int x = row.cells[i].x0; x < row.cells[i].x1; x += together) {
+        const int end = std::min(row.cells[i].x1, x + together);
+        run.clear();
+        for (int c = x; c < end; ++c) run.push_back({c, y});
+        xs.resize(run.size() * n);
+        ys.resize(run.size() * n);
+        inside.resize(run.size() * n);
+        pattern_.fill(run, {xs, ys});
+        scene_.contains(run, xs, ys, inside);
+        for (std::size_t c = 0; c < run.size(); ++c) {
+          const std::size_t at = row.first[i] + static_cast<std::size_t>(x - row.cells[i].x0) + c;
+          mark_needed(x + static_cast<int>(c), y, needed);
+          sum({xs.data() + c * n, n}, {ys.data() + c * n, n}, {inside.data() + c * n, n}, needed,
+              {row.sums.data() + at * side_ * side_, side_ * side_}, row.own[at]);
+        }
+      }
+    }
+  }
+
+  struct Value {
+    double value;
+    bool fallback;
+  };
+
+  // The ratio estimator: sum k f / sum k over the samples of all cells that the window touches; where the weights add up
+  // to less than a quarter of what they should, the control variate. `rows` are the cell rows y - reach to y + reach.
+  Value ratio(int x, int y, std::span<const CellRow* const> rows) const {
+    double k = 0, kf = 0;
+    for (std::size_t j = 0; j < side_; ++j) {
+      const std::size_t first = rows[j]->index(x - reach_);
+      for (std::size_t i = 0; i < side_; ++i) {
+        // Seen from the cell, the pixel lies at the opposite offset.
+        const WeightSum& s = rows[j]->sums[(first + i) * side_ * side_ + (side_ - 1 - j) * side_ + (side_ - 1 - i)];
+        k += s.k;
+        kf += s.kf;
+      }
+    }
+    const double rho = pattern_.n();
+    if (k >= rho / 4) return {kf / k + 0.0, false};
+    const OwnCount& own = rows[static_cast<std::size_t>(reach_)]->own[rows[static_cast<std::size_t>(reach_)]->index(x)];
+    const double mean = own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples)
+                                        : inside_center({x, y});
+    return {mean + (kf - mean * k) / rho + 0.0, true};
+  }
+
+ private:
+  double inside_center(Pixel pixel) const {
+    const double center = 0.5;
+    std::uint8_t inside = 0;
+    scene_.contains({&pixel, 1}, {&center, 1}, {&center, 1}, {&inside, 1});
+    return inside;
+  }
+
+  // Which pixels around the cell (x, y) are wanted.
+  void mark_needed(int x, int y, std::span<std::uint8_t> needed) const {
+    std::fill(needed.begin(), needed.end(), std::uint8_t{0});
+    for (int dy = -reach_; dy <= reach_; ++dy) {
+      if (y + dy < 0 || y + dy >= grid_.height) continue;
+      const auto& row = wanted_[static_cast<std::size_t>(y + dy)];
+      auto it = std::upper_bound(row.begin(), row.end(), x - reach_, [](int v, const Interval& w) { return v < w.x1; });
+      for (; it != row.end() && it->x0 <= x + reach_; ++it) {
+        for (int p = std::max(it->x0, x - reach_); p < std::min(it->x1, x + reach_ + 1); ++p) {
+          needed[static_cast<std::size_t>(dy + reach_) * side_ + static_cast<std::size_t>(p - x + reach_)] = 1;
+        }
+      }
+    }
+  }
+
+  const TestImage& scene_;
+  const Pattern& pattern_;
+  const Kernel& kernel_;
+  int reach_;
+  std::size_t side_;
+  const Wanted& wanted_;
+  Grid grid_;
+};
+
+// Whether pixel x of a row is active; `runs` covers the row.
+bool is_active(std::span<const Run> runs, int x) {
+  const auto it = std::upper_bound(runs.begin(), runs.end(), x, [](int v, const Run& r) { return v < r.x1; });
+  return it != runs.end() && it->cover == Cover::partial;
+}
+
+}  // namespace
+
+std::span<const std::string_view> estimator_names() { return kEstimatorNames; }
+
+Estimator find_estimator(std::string_view name, std::string_view place) {
+  for (std::size_t i = 0; i < kEstimatorNames.size(); ++i) {
+    if (kEstimatorNames[i] == name) return static_cast<Estimator>(i);
+  }
+  throw Error(std::string(place), unknown_name("estimator", name, kEstimatorNames));
+}
+
+Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator, const ActiveRows& rows,
+                bool exhaustive) {
+  const Grid grid = rows.grid();
+  const int reach = filter.apron();
+  const std::int64_t n = pattern.n();
+  Rendered out;
+  out.dense = exhaustive;
+  out.samples_total = n * (grid.width + 2 * std::int64_t{reach}) * (grid.height + 2 * std::int64_t{reach});
+  out.value.resize(static_cast<std::size_t>(exhaustive ? std::int64_t{grid.width} * grid.height : rows.active_pixels()));
+
+  const Wanted wanted = wanted_pixels(rows, exhaustive);
+  const Renderer renderer(scene, pattern, filter, wanted, grid);
+  std::vector<std::int64_t> fallbacks(static_cast<std::size_t>(grid.height));
+  std::deque<CellRow> cells;  // rows first_cell .. next_cell - 1
+  int first_cell = -reach, next_cell = -reach, next_pixel = 0;
+  while (next_pixel < grid.height) {
+    // Take cell rows until the band is full.
+    const int band_begin = next_cell;
+    std::int64_t bytes = 0;
+    while (next_cell < grid.height + reach && (bytes == 0 || bytes < kBandBytes)) {
+      cells.push_back(renderer.cell_row(next_cell++));
+      bytes += renderer.bytes(cells.back());
+      out.samples_evaluated += n * static_cast<std::int64_t>(cells.back().own.size());
+    }
+    parallel_for(static_cast<std::size_t>(next_cell - band_begin), [&](std::size_t i) {
+      const int y = band_begin + static_cast<int>(i);
+      renderer.sample(y, cells[static_cast<std::size_t>(y - first_cell)]);
+    });
+    const int ready = next_cell - reach;  // pixel rows below this one have all their cells
+    parallel_for(static_cast<std::size_t>(std::max(0, ready - next_pixel)), [&](std::size_t i) {
+      const int y = next_pixel + static_cast<int>(i);
+      std::vector<const CellRow*> around;
+      for (int j = y - reach; j <= y + reach; ++j) around.push_back(&cells[static_cast<std::size_t>(j - first_cell)]);
+      auto index = static_cast<std::size_t>(exhaustive ? std::int64_t{y} * grid.width : rows.first_active(y));
+      for (const Interval& w : wanted[static_cast<std::size_t>(y)]) {
+        for (int x = w.x0; x < w.x1; ++x) {
+          const auto [value, fallback] = renderer.ratio(x, y, around);
+          out.value[index++] = value;
+          fallbacks[static_cast<std::size_t>(y)] += fallback && (!exhaustive || is_active(rows.row(y), x));
+        }
+      }
+    });
+    next_pixel = std::max(next_pixel, ready);
+    while (first_cell < next_pixel - reach) {
+      cells.pop_front();
+      ++first_cell;
+    }
+  }
+  for (const std::int64_t f : fallbacks) out.fallbacks += f;
+  return out;
+}
+
+}  // namespace moire

@@ -1,0 +1,64 @@
+// N-rooks sampling (Latin hypercube): a random permutation puts one point in each of the N columns and N rows, anywhere
+// inside both strata. P. Shirley, "Discrepancy as a quality measure for sample distributions", Eurographics 1991.
+#include <utility>
+
+#include "patterns/pattern.h"
+#include "patterns/strata.h"
+#include "patterns/uniform.h"
+
+namespace moire {
+namespace {
+
+// An integer of [0, bound), bound <= 2^24, from the 64 random bits (high, low): their product with bound, divided by
+// 2^64. No value is more than one part in 2^40 too likely.
+std::int32_t below(std::uint32_t high, std::uint32_t low, std::uint32_t bound) noexcept {
+  const std::uint64_t carry = (std::uint64_t{low} * bound) >> 32;
+  return static_cast<std::int32_t>((std::uint64_t{high} * bound + carry) >> 32);
+}
+
+struct NRooks {
+  int n;
+  Strata strata;
+  std::uint64_t draw;
+
+  NRooks(const Args&, int count, Draw d) : n(count), strata(count), draw(draw_hash(d.seed, d.trial)) {}
+
+  // Fisher-Yates, inside out and in place: y becomes the permutation, x holds the draws it is made from.
+  void permute(const Key& key, double* __restrict x, double* __restrict y) const noexcept {
+    for (int i = 0; i < n; ++i) {
+      const Words w = hash(key, static_cast<std::uint32_t>(i), Axis::order);
+      x[i] = below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
+    }
+    for (int i = 0; i < n; ++i) {
+      y[i] = i;
+      std::swap(y[i], y[static_cast<std::int32_t>(x[i])]);
+    }
+  }
+
+  void fill(std::span<const Pixel> run, Points out) const noexcept {
+    double* __restrict x = out.x.data(), * __restrict y = out.y.data();
+    for (const Pixel& pixel : run) {
+      const Key key = pixel_key(draw, pixel);
+      permute(key, x, y);
+      for (int i = 0; i < n; ++i) {
+        const Words w = hash(key, static_cast<std::uint32_t>(i), Axis::xy);
+        x[i] = strata.place(i, strata.offset(unit(w.a, w.b)));
+        y[i] = strata.place(y[i], strata.offset(unit(w.c, w.d)));
+      }
+      x += n;
+      y += n;
+    }
+  }
+};
+
+}  // namespace
+
+extern const PatternInfo n_rooks_pattern;
+constinit const PatternInfo n_rooks_pattern = describe<NRooks>({.name = "n-rooks",
+                                                                .title = "One random point in each row and each column",
+                                                                .cite = "Shirley 1991",
+                                                                .varies = [](const Args&) { return Varies::by_trial; },
+                                                                .counts = any_count,
+                                                                .params = {}});
+
+}  // namespace moire

@@ -1,0 +1,144 @@
+// Sampling patterns: where in each pixel we look. The catalogue, and a pattern as a value.
+//
+// A pattern is made for one sample count and one draw (seed, trial); after that it is immutable and shared between
+// threads. It fills points for a run of pixels at a time (about 1024 points), never one by one. Its points in a pixel
+// depend on the pixel alone, not on the run or the order in which they are asked for.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/args.h"
+#include "core/geometry.h"
+
+namespace moire {
+
+// Structure of arrays, pixel-major, n points per pixel. x, y in [0, 1) from the pixel's upper left corner.
+struct Points {
+  std::span<double> x, y;
+};
+
+// Which replicate: `seed` names the experiment, `trial` counts its independent repetitions.
+struct Draw {
+  std::uint64_t seed = 1;
+  std::uint32_t trial = 0;
+};
+
+// Largest number of samples per pixel: coordinates stay distinct and addressable in 52 bits up to there.
+inline constexpr int kMaxSamples = 1 << 24;
+
+// What a plug-in type must offer. `fill` writes run.size() * n points.
+template <class P>
+concept PatternType = std::constructible_from<P, const Args&, int, Draw> &&
+    requires(const P& p, std::span<const Pixel> run, Points out) {
+  { p.fill(run, out) }
+  noexcept;
+};
+
+// A pattern may have points outside any pixel (a bank-based one): `fill_set` writes the one set of this draw, which
+// `moire points` and the discrepancies use. Without it, that set is the one of pixel (0, 0).
+template <class P>
+concept HasSet = requires(const P& p, Points out) {
+  { p.fill_set(out) }
+  noexcept;
+};
+
+enum class Varies : std::uint8_t {
+  never,     // the same points in every pixel and trial
+  by_trial,  // differs by seed, trial and pixel
+};
+
+// One constant record per pattern.
+struct PatternInfo {
+  std::string_view name, title, cite;
+  Varies (*varies)(const Args&);
+  // Counts that exist: the largest one <= n and the smallest one >= n, both within [1, kMaxSamples]; equal to n when
+  // n itself is one. n is any integer >= 1.
+  struct Counts {
+    int below, above;
+  };
+  Counts (*counts)(int n);
+  std::span<const Param> params;
+  std::shared_ptr<const void> (*make)(const Args&, int n, Draw);
+  void (*fill)(const void*, std::span<const Pixel>, Points) noexcept;
+  void (*fill_set)(const void*, Points) noexcept;
+};
+
+// Every pattern of the program, in the order of patterns/CMakeLists.txt.
+std::span<const PatternInfo* const> patterns();
+
+// Throws Error naming the nearest patterns.
+const PatternInfo& find_pattern(std::string_view name, std::string_view place);
+
+// What a person asked for: a pattern with checked parameters, not yet tied to a count or a draw.
+class PatternChoice {
+ public:
+  explicit PatternChoice(const Spec& spec);  // throws Error
+  const std::string& text() const { return text_; }
+  const PatternInfo& info() const { return *info_; }
+  const Args& args() const { return args_; }
+  bool varies() const { return info_->varies(args_) != Varies::never; }
+  // Throws Error naming the nearest usable counts when the pattern cannot have n points.
+  void require_count(std::int64_t n) const;
+
+ private:
+  const PatternInfo* info_;
+  Args args_;
+  std::string text_;
+};
+
+class Pattern {
+ public:
+  Pattern(const PatternChoice& choice, int n, Draw draw);  // throws Error as require_count does
+  int n() const noexcept { return n_; }
+  // out.x and out.y hold run.size() * n() points, pixel-major.
+  void fill(std::span<const Pixel> run, Points out) const noexcept { info_->fill(self_.get(), run, out); }
+  // The one set of this draw, n() points.
+  void fill_set(Points out) const noexcept { info_->fill_set(self_.get(), out); }
+
+ private:
+  const PatternInfo* info_;
+  std::shared_ptr<const void> self_;
+  int n_;
+};
+
+// The counts of patterns that take any number of points.
+inline PatternInfo::Counts any_count(int n) { return {n, n}; }
+// The counts m * m.
+PatternInfo::Counts square_count(int n);
+
+// Fields that an author writes; describe() adds the table of functions.
+struct PatternText {
+  std::string_view name, title, cite;
+  Varies (*varies)(const Args&);
+  PatternInfo::Counts (*counts)(int n);
+  std::span<const Param> params;
+};
+
+template <PatternType P>
+constexpr PatternInfo describe(const PatternText& t) {
+  return {
+      t.name,
+      t.title,
+      t.cite,
+      t.varies,
+      t.counts,
+      t.params,
+      [](const Args& a, int n, Draw d) -> std::shared_ptr<const void> { return std::make_shared<const P>(a, n, d); },
+      [](const void* p, std::span<const Pixel> run, Points out) noexcept { static_cast<const P*>(p)->fill(run, out); },
+      [](const void* p, Points out) noexcept {
+        if constexpr (HasSet<P>) {
+          static_cast<const P*>(p)->fill_set(out);
+        } else {
+          const Pixel origin{};
+          static_cast<const P*>(p)->fill({&origin, 1}, out);
+        }
+      }};
+}
+
+}  // namespace moire

@@ -1,0 +1,35 @@
+// Random sampling: independent uniform points. Its error falls as N^-1/2 for every image; the yardstick of the others.
+// R. L. Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986, calls its spectrum white noise.
+#include "patterns/pattern.h"
+#include "patterns/uniform.h"
+
+namespace moire {
+namespace {
+
+struct Random {
+  int n;
+  std::uint64_t draw;
+
+  Random(const Args&, int count, Draw d) : n(count), draw(draw_hash(d.seed, d.trial)) {}
+
+  void fill(std::span<const Pixel> run, Points out) const noexcept {
+    double *x = out.x.data(), *y = out.y.data();
+    for (const Pixel& pixel : run) {
+      uniform_points(pixel_key(draw, pixel), Axis::xy, 0, n, x, y);
+      x += n;
+      y += n;
+    }
+  }
+};
+
+}  // namespace
+
+extern const PatternInfo random_pattern;
+constinit const PatternInfo random_pattern = describe<Random>({.name = "random",
+                                                               .title = "Independent uniform points",
+                                                               .cite = "Cook 1986",
+                                                               .varies = [](const Args&) { return Varies::by_trial; },
+                                                               .counts = any_count,
+                                                               .params = {}});
+
+}  // namespace moire

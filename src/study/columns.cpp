@@ -1,0 +1,38 @@
+// Columns that more than one room writes or reads.
+#include "study/columns.h"
+
+#include <cmath>
+#include <string>
+
+namespace moire {
+namespace {
+
+Cell finite(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
+
+}  // namespace
+
+void set_errors(Row& row, std::string_view region, const Errors& errors) {
+  const auto set = [&](std::string_view field, Cell value) {
+    row.set(std::string(field) + "_" + std::string(region), std::move(value));
+  };
+  const bool wrong = errors.max_x >= 0;
+  set("n_pixels", errors.n_pixels);
+  set("bias", finite(errors.bias));
+  set("mae", finite(errors.mae));
+  set("mse", finite(errors.mse));
+  set("rmse", finite(errors.rmse));
+  set("max_abs", finite(errors.max_abs));
+  set("max_x", wrong ? Cell(errors.max_x) : Cell());
+  set("max_y", wrong ? Cell(errors.max_y) : Cell());
+  set("max_got", finite(errors.max_got));
+  set("max_want", finite(errors.max_want));
+  set("p50", finite(errors.p50));
+  set("p90", finite(errors.p90));
+  set("p95", finite(errors.p95));
+  set("p99", finite(errors.p99));
+  set("p995", finite(errors.p995));
+  set("nan_count", errors.nan_count);
+  set("outside_tolerance", errors.outside_tolerance);
+}
+
+}  // namespace moire

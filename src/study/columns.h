@@ -1,0 +1,17 @@
+// Columns that more than one room writes or reads, and the rules behind them, said once.
+#pragma once
+
+#include <string_view>
+
+#include "measure/error.h"
+#include "study/results.h"
+
+namespace moire {
+
+// Sets <field>_<region> for every field of Errors, e.g. rmse_active. Values that do not exist are empty cells.
+void set_errors(Row& row, std::string_view region, const Errors& errors);
+
+// True where an error is so small that the reference's own bound (absolute, guaranteed) may show in it.
+constexpr bool reference_limited(double rmse, double error_bound) { return rmse < 10 * error_bound; }
+
+}  // namespace moire

@@ -1,0 +1,60 @@
+// From a study to the list of its cases.
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "study/file_names.h"
+#include "study/study.h"
+
+namespace moire {
+namespace {
+
+std::uint32_t trials_of(const Study& study, const PatternChoice& pattern) {
+  return pattern.varies() ? static_cast<std::uint32_t>(study.trials) : 1;
+}
+
+}  // namespace
+
+std::vector<Case> plan(const Study& study) {
+  std::uint64_t rows = 0;
+  for (const PatternChoice& pattern : study.patterns) {
+    // Making one finds what the count alone does not say, such as a bank of point sets that memory cannot hold.
+    for (const int n : study.spp) Pattern(pattern, n, Draw{study.seed, 0});
+    rows += trials_of(study, pattern);
+  }
+  check_file_names(study);
+  // Each factor is compared before it is multiplied, so that nothing overflows.
+  for (const std::size_t factor :
+       {study.scenes.size(), study.spp.size(), study.filters.size(), study.estimators.size()}) {
+    if (factor != 0 && rows > kMaxRows / factor) {
+      throw Error("study", fmt::format("the plan has more than {} rows; name fewer scenes, patterns, spp, filters or "
+                                       "trials",
+                                       kMaxRows));
+    }
+    rows *= factor;
+  }
+  std::vector<Case> cases;
+  cases.reserve(rows);
+  const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+  for (std::uint32_t scene = 0; scene < size(study.scenes); ++scene) {
+    for (std::uint32_t pattern = 0; pattern < size(study.patterns); ++pattern) {
+      const std::uint32_t trials = trials_of(study, study.patterns[pattern]);
+      for (std::uint32_t spp = 0; spp < size(study.spp); ++spp) {
+        for (std::uint32_t filter = 0; filter < size(study.filters); ++filter) {
+          for (std::uint32_t estimator = 0; estimator < size(study.estimators); ++estimator) {
+            for (std::uint32_t trial = 0; trial < trials; ++trial) {
+              cases.push_back({scene, pattern, spp, filter, estimator, trial});
+            }
+          }
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+std::string describe(const Study& study, const Case& c) {
+  return fmt::format("{} {} {} {} {} {}", study.scenes[c.scene].name, study.patterns[c.pattern].text(),
+                     study.spp[c.spp], study.filters[c.filter].text(), study.estimators[c.estimator].text, c.trial);
+}
+
+}  // namespace moire

@@ -1,0 +1,236 @@
+// Running a study: from cases to rows of results.
+//
+// Loops: scenes in batches as memory allows; within a batch pattern, count and trial outside, scene and filter inside,
+// so that a pattern with a bank of point sets makes them once for all scenes and filters.
+#include "study/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/parallel.h"
+#include "measure/statistics.h"
+#include "study/columns.h"
+#include "study/file_names.h"
+
+namespace moire {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Active pixels, over all filters, whose exact values (16 bytes) and moments over trials (16 bytes per estimator) a
+// batch of scenes may hold.
+constexpr std::int64_t kBatchPixels = std::int64_t{1} << 23;
+
+std::int64_t nanoseconds_since(Clock::time_point start) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+}
+
+// Errors of the active pixels, and the tallies of both regions. A dense image is checked in every pixel, as
+// --exhaustive promises; otherwise inactive pixels are exact by definition and only counted.
+void measure(const Truth& truth, CaseResult& result) {
+  const Grid grid = truth.rows.grid();
+  const std::vector<double>& got = result.got.value;
+  const std::vector<double>& want = truth.exact.value;
+  const auto dense_index = [&](std::int64_t x, std::int64_t y) { return static_cast<std::size_t>(y * grid.width + x); };
+  result.error.reserve(want.size());
+  ErrorTally active;
+  for_each_active(truth.rows, [&](int x, int y, std::int64_t index) {
+    const auto i = static_cast<std::size_t>(index);
+    const double value = got[result.got.dense ? dense_index(x, y) : i];
+    active.add(x, y, value, want[i]);
+    result.error.push_back(value - want[i]);
+  });
+  result.active = active.finish();
+  if (!result.got.dense) {
+    active.add_exact(std::int64_t{grid.width} * grid.height - truth.rows.active_pixels());
+    result.all = active.finish();
+    return;
+  }
+  ErrorTally all;
+  std::size_t next_active = 0;
+  for (int y = 0; y < grid.height; ++y) {
+    for (const Run& run : truth.rows.row(y)) {
+      for (std::int32_t x = run.x0; x < run.x1; ++x) {
+        const double exact = run.cover == Cover::partial ? want[next_active++] : run.cover == Cover::all ? 1.0 : 0.0;
+        all.add(x, y, got[dense_index(x, y)], exact);
+      }
+    }
+  }
+  result.all = all.finish();
+}
+
+void set_images(const Study& study, const Case& c, Row& row) {
+  const bool kept = keeps_images(study, c.trial);
+  const std::string stem = image_stem(study, c), exact = exact_stem(study, c.scene, c.filter);
+  const auto set = [&](std::string_view name, const std::string& path) { row.set(name, kept ? Cell(path) : Cell()); };
+  set("image_got", stem + ".got.exr");
+  set("image_error", stem + ".error.exr");
+  set("image_exact", exact + ".exact.exr");
+  set("image_got_png", stem + ".got.png");
+  set("image_error_png", stem + ".error.png");
+  set("image_exact_png", exact + ".exact.png");
+}
+
+// Work of a case in units of samples per pixel; a case of 1 sample costs more than its sample.
+double work_of(const Study& study, const Case& c) { return study.spp[c.spp] + 4.0; }
+
+// Scenes [first, end) with what their cases share.
+struct Batch {
+  std::uint32_t end = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Truth> truths;  // by scene and filter
+};
+
+// Takes scenes from `first` on, at least one, until the batch is full or the run is to stop.
+Batch make_batch(const Study& study, std::uint32_t first, const Observer& observer) {
+  Batch batch;
+  std::int64_t pixels = 0;
+  for (batch.end = first; batch.end < study.scenes.size() && (batch.end == first || pixels < kBatchPixels);
+       ++batch.end) {
+    for (std::uint32_t filter = 0; filter < study.filters.size(); ++filter) {
+      if (observer.stop && observer.stop()) return batch;
+      Truth truth = find_truth(study.scenes[batch.end].image, study.filters[filter]);
+      pixels += truth.rows.active_pixels();
+      if (observer.exact_image && study.images != Images::none) observer.exact_image(batch.end, filter, truth);
+      batch.truths.emplace(std::pair(batch.end, filter), std::move(truth));
+    }
+  }
+  return batch;
+}
+
+// Bias and variance over the trials of the cases that share a pattern and a count.
+class Moments {
+ public:
+  // Adds a trial; after the last one of `trials` sets the columns.
+  void add(const Case& c, std::uint32_t trials, CaseResult& result) {
+    if (trials < 2) return;
+    const auto key = std::tuple(c.scene, c.filter, c.estimator);
+    TrialMoments& moments = by_case_.try_emplace(key, result.error.size()).first->second;
+    moments.add(result.error);
+    if (c.trial + 1 < trials || result.error.empty()) return;
+    const Split split = moments.split();
+    result.row.set("bias_sq_active", split.bias_sq);
+    result.row.set("variance_active", split.variance);
+  }
+  void clear() { by_case_.clear(); }
+
+ private:
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TrialMoments> by_case_;
+};
+
+}  // namespace
+
+Truth find_truth(const TestImage& scene, const Filter& filter) {
+  const auto start = Clock::now();
+  ActiveRows rows = enumerate(scene, filter.radius());
+  Reference reference = exact(scene, filter, rows);
+  return {std::move(rows), std::move(reference), nanoseconds_since(start)};
+}
+
+CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, std::int64_t setup_ns,
+                    const Truth& truth, bool exhaustive) {
+  const NamedScene& scene = study.scenes[c.scene];
+  const Grid grid = scene.image.grid();
+  CaseResult result;
+  const auto start = Clock::now();
+  result.got = render(scene.image, pattern, study.filters[c.filter], study.estimators[c.estimator].value, truth.rows,
+                      exhaustive);
+  const std::int64_t render_ns = nanoseconds_since(start);
+  measure(truth, result);
+
+  Row& row = result.row;
+  row.set("scene", scene.name);
+  row.set("pattern", study.patterns[c.pattern].text());
+  row.set("spp", std::int64_t{study.spp[c.spp]});
+  row.set("filter", study.filters[c.filter].text());
+  row.set("estimator", study.estimators[c.estimator].text);
+  row.set("trial", std::int64_t{c.trial});
+  row.set("width", std::int64_t{grid.width});
+  row.set("height", std::int64_t{grid.height});
+  row.set("seed", static_cast<std::int64_t>(study.seed));
+  row.set("samples_total", result.got.samples_total);
+  row.set("samples_evaluated", result.got.samples_evaluated);
+  row.set("pixels_total", std::int64_t{grid.width} * grid.height);
+  row.set("pixels_active", truth.rows.active_pixels());
+  row.set("fallbacks", result.got.fallbacks);
+  row.set("time_setup_ns", setup_ns);
+  row.set("time_render_ns", render_ns);
+  row.set("time_reference_ns", truth.time_ns);
+  row.set("time_threads", std::int64_t{thread_count()});
+  set_errors(row, "active", result.active);
+  row.set("bias_sq_active", {});
+  row.set("variance_active", {});
+  set_errors(row, "all", result.all);
+  row.set("reference_method", std::string("analytic"));
+  row.set("error_bound", truth.exact.max_bound);
+  row.set("reference_limited", reference_limited(result.active.rmse, truth.exact.max_bound));
+  row.set("status", std::string("ok"));
+  set_images(study, c, row);
+  return result;
+}
+
+Results run(const Study& study, const std::vector<Case>& cases, const Observer& observer) {
+  std::vector<Row> rows(cases.size());
+  std::vector<bool> done(cases.size(), false);
+  double work = 0, total_work = 0;
+  for (const Case& c : cases) total_work += work_of(study, c);
+  const auto stopped = [&] { return observer.stop && observer.stop(); };
+  Moments moments;
+
+  // Cases lie scene by scene, so that a batch of scenes is a stretch of the plan.
+  for (std::size_t first = 0; first < cases.size() && !stopped();) {
+    const Batch batch = make_batch(study, cases[first].scene, observer);
+    std::vector<std::size_t> order;
+    for (; first < cases.size() && cases[first].scene < batch.end; ++first) order.push_back(first);
+    if (order.empty()) break;
+    const auto run_key = [&](std::size_t i) {
+      const Case& c = cases[i];
+      return std::tuple(c.pattern, c.spp, c.trial, c.scene, c.filter, c.estimator);
+    };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return run_key(a) < run_key(b); });
+
+    std::optional<Pattern> pattern;
+    std::int64_t setup_ns = 0;
+    const Case* previous = nullptr;
+    for (const std::size_t index : order) {
+      if (stopped()) break;
+      const Case& c = cases[index];
+      const PatternChoice& choice = study.patterns[c.pattern];
+      const bool same_count = previous != nullptr && previous->pattern == c.pattern && previous->spp == c.spp;
+      if (!same_count) moments.clear();
+      if (!same_count || previous->trial != c.trial) {
+        pattern.reset();  // before the next one is made: a bank can be large
+        const auto start = Clock::now();
+        pattern.emplace(choice, study.spp[c.spp], Draw{study.seed, c.trial});
+        setup_ns = nanoseconds_since(start);
+      }
+      previous = &c;
+      const Truth& truth = batch.truths.at({c.scene, c.filter});
+      CaseResult result = run_case(study, c, *pattern, setup_ns, truth);
+      moments.add(c, choice.varies() ? static_cast<std::uint32_t>(study.trials) : 1, result);
+      if (observer.case_image && keeps_images(study, c.trial)) observer.case_image(c, truth, result);
+      if (observer.row) observer.row(result.row);
+      rows[index] = std::move(result.row);
+      done[index] = true;
+      work += work_of(study, c);
+      if (observer.progress) observer.progress(work / total_work);
+    }
+    moments.clear();
+  }
+
+  Results results;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (done[i]) {
+      results.rows.push_back(std::move(rows[i]));
+    } else {
+      results.complete = false;
+    }
+  }
+  return results;
+}
+
+}  // namespace moire

@@ -1,0 +1,32 @@
+// Scenes as files describe them: the keys of one scene, with ranges, to test images.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "study/document.h"
+#include "testimages/testimage.h"
+
+namespace moire {
+
+struct NamedScene {
+  std::string name;
+  TestImage image;
+};
+
+// A numeric key may be a range { from, to, step }: one scene per value, named NAME:key=value. The values are
+// from + k step for k = 0, 1, ... up to `to`, which is one of them when it is hit within the rounding of the three
+// numbers; a short decimal within that rounding is taken for the sum (0 + 3 * 0.1 is 0.3). Throws Error at `range` for
+// more than `limit` values or a step that leads away.
+std::vector<double> range_values(const Node& range, std::size_t limit);
+
+// The scenes of one table of scene keys (kind, width, height and the kind's own; `name` is optional and must agree
+// with no other: the caller checks). More than `limit` scenes are refused. Throws Error with file:line:column.
+std::vector<NamedScene> scenes_of(const Node& table, const std::string& name, std::size_t limit);
+
+// A scene file, which describes one scene. `name` is used when the file gives none. Throws Error.
+NamedScene parse_scene(std::string_view text, const std::string& file, const std::string& name);
+
+}  // namespace moire

@@ -1,0 +1,67 @@
+// An experiment as a value: what a study file says, checked, and its plan. Everything that can be refused is refused
+// here, before anything is computed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/render.h"
+#include "filters/filter.h"
+#include "patterns/pattern.h"
+#include "study/scene_file.h"
+#include "testimages/testimage.h"
+
+namespace moire {
+
+// Limits of a study. The scenes of all ranges; the rows of the plan, which are held in memory (a few kB each); and the
+// pixels of an image that is written to a file (it is then held densely in memory).
+inline constexpr std::size_t kMaxScenes = 100'000;
+inline constexpr std::size_t kMaxRows = 1'000'000;
+inline constexpr int kMaxTrials = 1'000'000;
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+
+struct EstimatorChoice {
+  std::string text;
+  Estimator value = Estimator::ratio;
+};
+
+// Of which cases the images are kept.
+enum class Images : std::uint8_t { none, first_trial, all };
+
+// The defaults are those of a study file. Patterns and scenes have none; spp, filters and estimators are filled in by
+// parse_study: 1, 4, 16, 64 and 256; box; ratio.
+struct Study {
+  std::string name;        // default: the file's name without .toml
+  std::string text;        // the study file, followed by the scene files that it names
+  std::uint64_t seed = 1;  // names the experiment
+  int trials = 8;          // replicates t = 0 .. trials - 1 of patterns that vary
+  std::vector<int> spp;
+  std::vector<PatternChoice> patterns;
+  std::vector<Filter> filters;
+  std::vector<EstimatorChoice> estimators;
+  Images images = Images::first_trial;
+  std::vector<NamedScene> scenes;
+};
+
+// Reads a study. `file` is what messages call it and the folder that `file = "scene.toml"` starts from; `stem` is the
+// default name. Throws Error with file:line:column.
+Study parse_study(std::string_view text, const std::string& file, const std::string& stem);
+
+// One image to compute: indices into the study's lists, and the trial.
+struct Case {
+  std::uint32_t scene = 0, pattern = 0, spp = 0, filter = 0, estimator = 0, trial = 0;
+  friend bool operator==(const Case&, const Case&) = default;
+};
+
+// Every case in the order scene, pattern, spp, filter, estimator, trial, the last one fastest. A pattern that does not
+// vary has trial 0 alone. Throws Error when a pattern cannot have a count, naming the nearest ones, and when the plan
+// is too long.
+std::vector<Case> plan(const Study& study);
+
+// The key of a case on one line: scene, pattern, spp, filter, estimator and trial, separated by blanks.
+std::string describe(const Study& study, const Case& c);
+
+}  // namespace moire

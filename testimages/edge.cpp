@@ -1,0 +1,137 @@
+// A straight edge: the half-plane (p - through) . n >= 0. The simplest image with all frequencies across one direction.
+#include <algorithm>
+#include <cmath>
+
+#include "core/dd_math.h"
+#include "core/expansion.h"
+#include "curve/polygon.h"
+#include "testimages/scene_args.h"
+#include "testimages/testimage.h"
+
+namespace moire {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+constexpr Param kParams[] = {
+    numbers("through", true, "", "a point of the edge, [x, y] in pixels"),
+    numbers("normal", true, "", "towards the inside: degrees from +x towards +y, or a vector [nx, ny]")};
+
+// The unit vector of a direction in degrees, each component right to an ulp: reduced exactly to an octant, then sine and
+// cosine in double-double. Multiples of 90 give 0 and 1 exactly, odd multiples of 45 equal magnitudes.
+Vec2 unit_vector(double degrees) {
+  const double turn = std::fmod(std::fabs(degrees), 360.0);  // exact, as is the next one
+  const double rest = std::fmod(turn, 90.0);
+  const auto quarter = std::lround((turn - rest) / 90);
+  const bool beyond = rest > 45;
+  const double octant = beyond ? 90 - rest : rest;
+  const CosSin cs = dd_cos_sin(Dd(octant) * kPi / Dd(180));
+  double c = cs.cos.value(), s = octant == 45 ? c : cs.sin.value();
+  if (beyond) std::swap(c, s);
+  Vec2 v{c, s};
+  for (long i = 0; i < quarter; ++i) v = {-v.y, v.x};
+  if (degrees < 0) v.y = -v.y;
+  return {v.x + 0.0, v.y + 0.0};  // no negative zeros
+}
+
+class Edge {
+ public:
+  Edge(const Args& args, Grid) : through_(point(args, "through")) {
+    const Value& v = *args.find("normal");
+    if (v.rank == 0 && v.numbers.size() == 1) {
+      normal_ = unit_vector(v.numbers[0]);
+    } else if (v.rank == 1 && v.numbers.size() == 2) {
+      normal_ = {v.numbers[0], v.numbers[1]};
+    } else {
+      throw Error(v.place, "\"normal\" must be degrees or a vector [nx, ny]");
+    }
+    const double size = std::max(std::fabs(normal_.x), std::fabs(normal_.y));
+    if (size == 0) throw Error(v.place, "\"normal\" has length 0; any other length is fine");
+    // Only the direction counts: scaled by a power of two, which is exact, so that no product overflows or vanishes.
+    int exponent = 0;
+    std::frexp(size, &exponent);
+    n_ = {std::ldexp(normal_.x, -exponent), std::ldexp(normal_.y, -exponent)};
+  }
+
+  void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                std::span<std::uint8_t> inside) const noexcept {
+    const std::size_t n = x.size() / run.size();
+    for (std::size_t p = 0; p < run.size(); ++p) {
+      const double c = offset(run[p], 0);
+      // Below 3 u (|nx| + |ny|) + 2 u |s| for the sum and u |c| for the rounded offset; |s| <= |nx| + |ny| + |c|.
+      const double doubt = 8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c));
+      bool doubtful = false;
+      const std::size_t end = (p + 1) * n;
+      for (std::size_t i = p * n; i < end; ++i) {
+        const double s = n_.x * x[i] + n_.y * y[i] - c;
+        inside[i] = s >= 0;
+        doubtful |= std::fabs(s) <= doubt;
+      }
+      if (!doubtful) continue;
+      for (std::size_t i = p * n; i < end; ++i) {
+        if (std::fabs(n_.x * x[i] + n_.y * y[i] - c) <= doubt) inside[i] = exact_sign(run[p], {x[i], y[i]}) >= 0;
+      }
+    }
+  }
+
+  Cover cover(Pixel origin, Rect r) const noexcept {
+    const double c = offset(origin, 0);
+    const double low = n_.x * (n_.x > 0 ? r.lo.x : r.hi.x) + n_.y * (n_.y > 0 ? r.lo.y : r.hi.y) - c;
+    const double high = n_.x * (n_.x > 0 ? r.hi.x : r.lo.x) + n_.y * (n_.y > 0 ? r.hi.y : r.lo.y) - c;
+    const double doubt = 8 * kUnit * (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
+                                      std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c));
+    if (low > doubt) return Cover::all;
+    if (high < -doubt) return Cover::none;
+    return Cover::partial;
+  }
+
+  void boundary(Pixel origin, double half_width, Boundary& out) const {
+    const HalfPlane inside{n_.x, n_.y, -offset(origin, 0.5)};
+    Polygon clipped;
+    clip(square(half_width), inside, clipped);
+    for (std::size_t i = 0; i < clipped.size(); ++i) {
+      out.segments.push_back({clipped[i], clipped[i + 1 < clipped.size() ? i + 1 : 0]});
+    }
+    // The signed distances of the corners err by at most 4 u (sum of their terms); the new vertices by twice that along
+    // the normal plus 4 u of the window (polygon.h). The edge is at most 2 sqrt(2) half widths long here.
+    const double size = std::hypot(n_.x, n_.y);
+    const double distance =
+        8 * kUnit * ((std::fabs(n_.x) + std::fabs(n_.y)) * half_width + std::fabs(inside.c)) / size +
+        4 * kUnit * half_width;
+    out.area_error += 2 * distance * 2.83 * half_width;
+  }
+
+  StoredDoubles stored() const {
+    return {{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}};
+  }
+
+ private:
+  // n . (through - origin - (shift, shift)), rounded once from about 100 bits.
+  double offset(Pixel origin, double shift) const noexcept {
+    const Dd x = Dd(through_.x) - dd_from_integer(origin.x) - Dd(shift);
+    const Dd y = Dd(through_.y) - dd_from_integer(origin.y) - Dd(shift);
+    return (Dd(n_.x) * x + Dd(n_.y) * y).value();
+  }
+
+  // The sign of n . (origin + p - through), exactly.
+  int exact_sign(Pixel origin, Vec2 p) const noexcept {
+    Expansion sum;
+    const Dd ox = dd_from_integer(origin.x), oy = dd_from_integer(origin.y);
+    for (const double term : {p.x, ox.hi, ox.lo, -through_.x}) sum.add_product(n_.x, term);
+    for (const double term : {p.y, oy.hi, oy.lo, -through_.y}) sum.add_product(n_.y, term);
+    return sum.sign();
+  }
+
+  Vec2 through_, normal_, n_;
+};
+
+}  // namespace
+
+extern constinit const TestImageInfo edge_testimage;
+constinit const TestImageInfo edge_testimage =
+    describe<Edge>({.name = "edge",
+                    .title = "Half-plane",
+                    .cite = "Mitchell, \"Ray tracing and irregularities of distribution\", 1992, section 5",
+                    .params = kParams});
+
+}  // namespace moire

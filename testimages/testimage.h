@@ -1,0 +1,108 @@
+// Test images ("scenes" on the command line): what is true. Black and white: inside = 1, outside = 0.
+//
+// A scene is asked relative to a pixel and does the one translation itself, in double-double, so that coordinates far
+// from the origin lose nothing. It answers three questions: is this point inside, does the boundary meet this
+// rectangle, and what is the boundary around this pixel.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/args.h"
+#include "core/geometry.h"
+#include "curve/boundary.h"
+
+namespace moire {
+
+// What a rectangle holds: nothing of the scene, only scene, or perhaps both.
+enum class Cover : std::uint8_t { none, all, partial };
+
+// The doubles that define a scene after reading, e.g. {"normal", {0, 1}}.
+using StoredDoubles = std::vector<std::pair<std::string, std::vector<double>>>;
+
+template <class S>
+concept TestImageType = std::constructible_from<S, const Args&, Grid> &&
+    requires(const S& s, Pixel origin, std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+             std::span<std::uint8_t> inside, Rect r, double half_width, Boundary& out) {
+  // Points relative to the upper left corners of a run of pixels, x.size() / run.size() points each, pixel-major.
+  // inside[i] = 1 or 0. The answer is the exact one for the stored doubles: doubtful signs are settled exactly.
+  { s.contains(run, x, y, inside) } noexcept;
+  // The closed rectangle r, relative to the upper left corner of pixel `origin`. May say partial when unsure, never
+  // the reverse: none and all are promises about every point of r, its sides included.
+  { s.cover(origin, r) } noexcept -> std::same_as<Cover>;
+  // Appends the closed boundary of any set that equals the scene inside the window: the square of that half width
+  // around the CENTRE of pixel `origin`, relative to that centre.
+  s.boundary(origin, half_width, out);
+  { s.stored() } -> std::same_as<StoredDoubles>;
+};
+
+// One constant record per kind of scene.
+struct TestImageInfo {
+  std::string_view name, title, cite;
+  std::span<const Param> params;
+  std::shared_ptr<const void> (*make)(const Args&, Grid);
+  void (*contains)(const void*, std::span<const Pixel>, std::span<const double>, std::span<const double>,
+                   std::span<std::uint8_t>) noexcept;
+  Cover (*cover)(const void*, Pixel, Rect) noexcept;
+  void (*boundary)(const void*, Pixel, double, Boundary&);
+  StoredDoubles (*stored)(const void*);
+};
+
+// Every kind of scene, in the order of testimages/CMakeLists.txt.
+std::span<const TestImageInfo* const> testimages();
+
+// Throws Error naming the nearest kinds.
+const TestImageInfo& find_testimage(std::string_view name, std::string_view place);
+
+// Largest width and height of an image, in pixels.
+inline constexpr int kMaxSide = 1 << 20;
+
+// A scene with its image size: a value, cheap to copy, immutable, shared freely between threads.
+class TestImage {
+ public:
+  // `given` holds the keys of a scene file other than kind, name, file, width and height. Throws Error.
+  TestImage(const TestImageInfo& info, const Given& given, Grid grid, std::string_view place);
+
+  const TestImageInfo& info() const { return *info_; }
+  Grid grid() const noexcept { return grid_; }
+  StoredDoubles stored() const { return info_->stored(self_.get()); }
+
+  void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                std::span<std::uint8_t> inside) const noexcept {
+    info_->contains(self_.get(), run, x, y, inside);
+  }
+  Cover cover(Pixel origin, Rect r) const noexcept { return info_->cover(self_.get(), origin, r); }
+  void boundary(Pixel origin, double half_width, Boundary& out) const {
+    info_->boundary(self_.get(), origin, half_width, out);
+  }
+
+ private:
+  const TestImageInfo* info_;
+  Grid grid_;
+  std::shared_ptr<const void> self_;
+};
+
+// Fields that an author writes; describe() adds the table of functions.
+struct TestImageText {
+  std::string_view name, title, cite;
+  std::span<const Param> params;
+};
+
+template <TestImageType S>
+constexpr TestImageInfo describe(const TestImageText& t) {
+  return {t.name, t.title, t.cite, t.params,
+          [](const Args& a, Grid g) -> std::shared_ptr<const void> { return std::make_shared<const S>(a, g); },
+          [](const void* p, std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+             std::span<std::uint8_t> in) noexcept { static_cast<const S*>(p)->contains(run, x, y, in); },
+          [](const void* p, Pixel o, Rect r) noexcept { return static_cast<const S*>(p)->cover(o, r); },
+          [](const void* p, Pixel o, double h, Boundary& out) { static_cast<const S*>(p)->boundary(o, h, out); },
+          [](const void* p) { return static_cast<const S*>(p)->stored(); }};
+}
+
+}  // namespace moire

@@ -1,0 +1,42 @@
+// The reconstruction kernels once more, from their published formulas, in long double; no antiderivative anywhere.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "oracle/quadrature.h"
+
+namespace moire::oracle {
+
+// A symmetric 1-D kernel k on [-radius, radius], normalised to integral 1 by quadrature of itself. x in pixels.
+class Kernel {
+ public:
+  // "name" or "name:key=value,..." with the names and defaults of the program.
+  explicit Kernel(std::string_view text);
+
+  long double radius() const { return knots_.back(); }
+  // Where k is not analytic, its ends included; long smooth pieces are cut further, so that the rules below suffice.
+  std::span<const long double> knots() const { return knots_; }
+  // k within the support; at a knot, the value of the outer piece.
+  long double operator()(long double x) const { return shape_(x < 0 ? -x : x) * scale_; }
+  // Integral of k over [a, b] within the support, by Gauss-Legendre between knots. Zero where a >= b.
+  long double over(long double a, long double b) const;
+  // Integral of |k|, to judge rounding.
+  long double gain() const { return gain_; }
+  // Rules for the integrals across lines; exact for polynomial kernels.
+  const RulePair& line_rules() const { return line_rules_; }
+  // max over x of |sum over integers j of k(x + j) - 1|: zero for a partition of unity.
+  long double ripple() const;
+
+ private:
+  std::vector<long double> knots_, mass_;
+  std::function<long double(long double)> shape_;  // of |x|, any scale
+  long double scale_ = 1, gain_ = 1;
+  bool polynomial_ = true;
+  Rule inner_;
+  RulePair line_rules_;
+};
+
+}  // namespace moire::oracle

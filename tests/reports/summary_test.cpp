@@ -1,0 +1,204 @@
+// Summaries over trials and convergence rates from raw rows.
+#include "study/summary.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "measure/statistics.h"
+#include "study/columns.h"
+
+namespace moire {
+namespace {
+
+Row raw(const std::string& pattern, std::int64_t spp, std::int64_t trial, double mse) {
+  Row row;
+  row.set("scene", std::string("edge"));
+  row.set("pattern", pattern);
+  row.set("spp", spp);
+  row.set("filter", std::string("box"));
+  row.set("estimator", std::string("ratio"));
+  row.set("trial", trial);
+  row.set("samples_total", std::int64_t{1000} * spp);
+  row.set("samples_evaluated", std::int64_t{10} * spp);
+  row.set("fallbacks", std::int64_t{0});
+  row.set("mse_active", mse);
+  row.set("rmse_active", std::sqrt(mse));
+  row.set("bias_active", 0.001 * static_cast<double>(trial));
+  row.set("max_abs_active", 2 * std::sqrt(mse));
+  row.set("mse_all", mse / 100);
+  row.set("rmse_all", std::sqrt(mse / 100));
+  row.set("error_bound", 1e-15);
+  row.set("reference_limited", false);
+  row.set("status", std::string("ok"));
+  return row;
+}
+
+const Row* find(const Table& table, const std::string& pattern, std::int64_t spp = 0) {
+  for (const Row& row : table) {
+    if (row.text("pattern") == pattern && (spp == 0 || row.number("spp") == static_cast<double>(spp))) return &row;
+  }
+  return nullptr;
+}
+
+bool is_empty(const Row& row, std::string_view name) {
+  const Cell* cell = row.find(name);
+  return cell != nullptr && std::holds_alternative<std::monostate>(*cell);
+}
+
+TEST_SUITE("unit") {
+  TEST_CASE("a case's trials are averaged as squares, with interval, extremes and sums") {
+    Table rows;
+    for (const std::int64_t trial : {0, 1, 2}) {
+      rows.push_back(raw("random", 16, trial, 0.01 * static_cast<double>(trial + 1)));
+    }
+    rows.back().set("bias_sq_active", 0.005);
+    rows.back().set("variance_active", 0.015);
+    const Summary summary = summarize(rows);
+    REQUIRE(summary.rows.size() == 1);
+    const Row& row = summary.rows[0];
+    CHECK(row.number("n_trials") == 3);
+    CHECK(row.number("rmse_active") == doctest::Approx(std::sqrt(0.02)).epsilon(1e-15));
+    CHECK(row.number("rmse_all") == doctest::Approx(std::sqrt(0.0002)).epsilon(1e-15));
+    const auto interval = rms_interval(std::vector<double>{0.01, 0.02, 0.03});
+    CHECK(row.number("rmse_active_lo") == interval->lo);
+    CHECK(row.number("rmse_active_hi") == interval->hi);
+    CHECK(row.text("ci_method") == kRmsMethod);
+    CHECK(row.number("max_abs_active") == 2 * std::sqrt(0.03));
+    CHECK(row.number("bias_active") == doctest::Approx(0.001).epsilon(1e-15));
+    CHECK(row.number("bias_sq_active") == 0.005);
+    CHECK(row.number("variance_active") == 0.015);
+    CHECK(*row.find("samples_total") == Cell(std::int64_t{48000}));
+    CHECK(*row.find("samples_evaluated") == Cell(std::int64_t{480}));
+    CHECK(row.number("error_bound") == 1e-15);
+    CHECK_FALSE(row.flag("reference_limited"));
+    // One sample count has no rate.
+    CHECK(summary.slopes.empty());
+    CHECK(is_empty(row, "slope"));
+  }
+
+  TEST_CASE("a power law's exponent is found per series, and every summary row carries it") {
+    Table rows;
+    for (const auto& [pattern, slope] : {std::pair("random", -0.5), std::pair("jittered", -0.75)}) {
+      for (const std::int64_t spp : {1, 4, 16, 64}) {
+        for (const std::int64_t trial : {0, 1, 2, 3}) {
+          const double wobble = 1 + 0.01 * static_cast<double>(trial);
+          rows.push_back(raw(pattern, spp, trial, 0.2 * wobble * std::pow(static_cast<double>(spp), 2 * slope)));
+        }
+      }
+    }
+    const Summary summary = summarize(rows);
+    REQUIRE(summary.slopes.size() == 2);
+    CHECK(summary.rows.size() == 8);
+    for (const auto& [pattern, slope] : {std::pair("random", -0.5), std::pair("jittered", -0.75)}) {
+      const Row* row = find(summary.slopes, pattern);
+      REQUIRE(row != nullptr);
+      CHECK(row->number("slope") == doctest::Approx(slope).epsilon(1e-13));
+      CHECK(row->number("slope_lo") <= row->number("slope_hi"));
+      CHECK(row->text("ci_method") == kSlopeMethod);
+      CHECK(row->number("spp_min") == 1);
+      CHECK(row->number("spp_max") == 64);
+      CHECK(row->number("n_spp") == 4);
+      CHECK(is_empty(*row, "left_out"));
+      CHECK(find(summary.rows, pattern, 4)->number("slope") == row->number("slope"));
+    }
+  }
+
+  TEST_CASE("reference-limited, exact and incomplete cases are no points of a slope, and the row says so") {
+    Table rows;
+    for (const std::int64_t spp : {1, 4, 16, 64, 256}) {
+      for (const std::int64_t trial : {0, 1}) {
+        Row row = raw("zaremba", spp, trial, spp == 16 ? 0.0 : 1.0 / static_cast<double>(spp * spp));
+        if (spp == 64) row.set("reference_limited", true);
+        if (spp != 256 || trial == 0) rows.push_back(row);
+      }
+    }
+    const Summary summary = summarize(rows);
+    REQUIRE(summary.slopes.size() == 1);
+    const Row& row = summary.slopes[0];
+    CHECK(row.text("left_out") == "16 (no error), 64 (reference limited), 256 (other trials)");
+    CHECK(row.number("n_spp") == 2);
+    CHECK(row.number("spp_max") == 4);
+    CHECK(row.number("slope") == doctest::Approx(-1.0).epsilon(1e-14));
+    CHECK(find(summary.rows, "zaremba", 64)->flag("reference_limited"));
+    CHECK(find(summary.rows, "zaremba", 16)->number("rmse_active") == 0);
+  }
+
+  TEST_CASE("one trial has a value and a slope but no interval") {
+    const Summary summary = summarize({raw("regular", 1, 0, 0.04), raw("regular", 4, 0, 0.01)});
+    REQUIRE(summary.slopes.size() == 1);
+    CHECK(summary.slopes[0].number("slope") == doctest::Approx(-0.5).epsilon(1e-14));
+    CHECK(is_empty(summary.slopes[0], "slope_lo"));
+    CHECK(is_empty(summary.slopes[0], "ci_method"));
+    CHECK(summary.rows[0].number("rmse_active") == 0.2);
+    CHECK(is_empty(summary.rows[0], "rmse_active_lo"));
+    CHECK(is_empty(summary.rows[0], "ci_method"));
+    CHECK(is_empty(summary.rows[0], "bias_sq_active"));
+  }
+
+  TEST_CASE("failed rows and rows without an error count nowhere; order of rows does not matter to the numbers") {
+    Table rows;
+    for (const std::int64_t spp : {1, 4, 16}) {
+      for (const std::int64_t trial : {0, 1, 2, 3}) {
+        rows.push_back(raw("random", spp, trial, 0.1 / static_cast<double>(spp) + 0.001 * static_cast<double>(trial)));
+      }
+    }
+    const Summary straight = summarize(rows);
+    Row failed = raw("random", 1, 4, 100);
+    failed.set("status", std::string("failed: out of memory"));
+    Row empty = raw("random", 1, 5, 100);
+    empty.set("rmse_active", {});
+    Table mixed(rows.rbegin(), rows.rend());
+    mixed.insert(mixed.begin(), failed);
+    mixed.push_back(empty);
+    const Summary other = summarize(mixed);
+    REQUIRE(other.slopes.size() == 1);
+    for (const std::string_view name : {"slope", "slope_lo", "slope_hi", "n_trials", "n_spp"}) {
+      CHECK(other.slopes[0].number(name) == straight.slopes[0].number(name));
+    }
+    for (const std::int64_t spp : {1, 4, 16}) {
+      for (const std::string_view name : {"rmse_active", "rmse_active_lo", "max_abs_active", "n_trials"}) {
+        CHECK(find(other.rows, "random", spp)->number(name) == find(straight.rows, "random", spp)->number(name));
+      }
+    }
+    CHECK(summarize({}).rows.empty());
+    CHECK(summarize({failed}).rows.empty());
+  }
+
+  TEST_CASE("the columns of an error are named by region, and what does not exist is empty") {
+    Row row;
+    ErrorTally tally;
+    tally.add(3, 2, 0.75, 0.5);
+    tally.add_exact(3);
+    set_errors(row, "active", tally.finish());
+    set_errors(row, "all", ErrorTally().finish());
+    CHECK(row.number("n_pixels_active") == 4);
+    CHECK(row.number("rmse_active") == 0.125);
+    CHECK(row.number("max_x_active") == 3);
+    CHECK(row.number("max_got_active") == 0.75);
+    CHECK(row.number("p995_active") == 0.25);
+    CHECK(*row.find("n_pixels_all") == Cell(std::int64_t{0}));
+    CHECK(is_empty(row, "rmse_all"));
+    CHECK(is_empty(row, "max_x_all"));
+    CHECK(reference_limited(0.9e-14, 1e-15));
+    CHECK_FALSE(reference_limited(1.1e-14, 1e-15));
+    CHECK_FALSE(reference_limited(0, 0));
+  }
+
+  TEST_CASE("a cell that is set again keeps its place") {
+    Row row;
+    row.set("a", 1.0);
+    row.set("b", std::string("x"));
+    row.set("a", std::int64_t{2});
+    REQUIRE(row.cells().size() == 2);
+    CHECK(row.cells()[0].first == "a");
+    CHECK(row.number("a") == 2);
+    CHECK(std::isnan(row.number("b")));
+    CHECK(row.text("a").empty());
+    CHECK(row.find("c") == nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace moire
