@@ -201,7 +201,7 @@ double Kernel::k(double x) const noexcept {
 
 double Kernel::K(double x) const noexcept {
   const int p = piece_of(x);
-  return p < 0 ? 0.0 : p >= pieces() ? 1.0 : K_piece(p, x);
+  return x <= knots_.front() ? 0.0 : p >= pieces() ? 1.0 : K_piece(p, x);
 }
 
 void Kernel::weights(std::span<const double> x, std::span<double> out) const noexcept {

@@ -50,6 +50,10 @@ void write_renamed(const std::string& path, const std::function<void(const std::
 
   fs::path part = target;
   part.replace_filename(target.stem().string() + ".part" + target.extension().string());
+  // Asked here, since not every writer says why it cannot open its file.
+  std::FILE* probe = std::fopen(part.c_str(), "wb");
+  if (probe == nullptr) fail(path, "cannot be written", std::strerror(errno));
+  std::fclose(probe);
   try {
     write(part.string());
   } catch (...) {

@@ -40,8 +40,12 @@ const ImageIo& image_io() {
 
 std::string software() { return "moire " + tool().version; }
 
-void check(const std::string& path, const char* what, std::string reason) {
+// Throws what OpenImageIO says of `file`, on one line, as a matter of `path`.
+void check(const std::string& path, const std::string& file, const char* what, std::string reason) {
   if (reason.empty()) return;
+  for (std::size_t at = 0; (at = reason.find(file, at)) != std::string::npos; at += path.size()) {
+    reason.replace(at, file.size(), path);
+  }
   while (!reason.empty() && reason.back() == '\n') reason.pop_back();
   for (char& c : reason) {
     if (c == '\n') c = ' ';
@@ -55,13 +59,13 @@ void write_exr(const std::string& path, Grid grid, std::span<const float> y, con
   assert(y.size() == static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   const ImageIo& io = image_io();
   write_renamed(path, [&](const std::string& part) {
-    check(path, "cannot be written", io.write_exr(part, grid, y, attributes, software()));
+    check(path, part, "cannot be written", io.write_exr(part, grid, y, attributes, software()));
   });
 }
 
 ExrImage read_exr(const std::string& path) {
   ExrImage image;
-  check(path, "cannot be read", image_io().read_exr(path, image));
+  check(path, path, "cannot be read", image_io().read_exr(path, image));
   return image;
 }
 
@@ -71,13 +75,14 @@ void write_png(const std::string& path, const Raster& raster) {
                                      static_cast<std::size_t>(raster.grid.height) *
                                      static_cast<std::size_t>(raster.channels));
   const ImageIo& io = image_io();
-  write_renamed(
-      path, [&](const std::string& part) { check(path, "cannot be written", io.write_png(part, raster, software())); });
+  write_renamed(path, [&](const std::string& part) {
+    check(path, part, "cannot be written", io.write_png(part, raster, software()));
+  });
 }
 
 Raster read_png(const std::string& path) {
   Raster raster;
-  check(path, "cannot be read", image_io().read_png(path, raster));
+  check(path, path, "cannot be read", image_io().read_png(path, raster));
   return raster;
 }
 

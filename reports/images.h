@@ -13,7 +13,8 @@
 
 namespace moire {
 
-// What an EXR file says about its image, e.g. "moire:spp". Integers beyond 32 bits are written as text.
+// What an EXR file says about its image, e.g. "moire:spp". Integers beyond 32 bits are written as text, and an
+// empty text reads back as missing.
 using Attribute = std::pair<std::string, std::variant<std::int64_t, double, std::string>>;
 
 // One linear channel Y, row-major.

@@ -30,7 +30,9 @@ Entry slope_entry(const Row* row) {
   const double slope = row == nullptr ? std::nan("") : row->number("slope");
   if (!std::isfinite(slope)) return {"-", std::nan("")};
   const double half = (row->number("slope_hi") - row->number("slope_lo")) / 2;
-  return {std::isfinite(half) ? fmt::format("{:.2f} +-{:.2f}", slope, half) : fmt::format("{:.2f}", slope), slope};
+  // Without an interval: as wide as with one, so that the slopes line up.
+  return {fmt::format("{:.2f}", slope) + (std::isfinite(half) ? fmt::format(" +-{:.2f}", half) : std::string(7, ' ')),
+          slope};
 }
 
 // Code points, which is columns for the names that occur.

@@ -186,8 +186,9 @@ class Checkerboard {
       add(h_[row + 1], factor, p.y, oy);
       sum.add_product(h_[row + 2], factor);
     };
-    add_row(r, 1);
-    if (k != 0) add_row(6, -k);
+    constexpr double kScale = 0x1p400;  // away from underflow
+    add_row(r, kScale);
+    if (k != 0) add_row(6, -k * kScale);
     return sum.sign();
   }
 

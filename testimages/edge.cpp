@@ -116,9 +116,10 @@ class Edge {
   // The sign of n . (origin + p - through), exactly.
   int exact_sign(Pixel origin, Vec2 p) const noexcept {
     Expansion sum;
+    const Vec2 n{n_.x * 0x1p500, n_.y * 0x1p500};  // away from underflow
     const Dd ox = dd_from_integer(origin.x), oy = dd_from_integer(origin.y);
-    for (const double term : {p.x, ox.hi, ox.lo, -through_.x}) sum.add_product(n_.x, term);
-    for (const double term : {p.y, oy.hi, oy.lo, -through_.y}) sum.add_product(n_.y, term);
+    for (const double term : {p.x, ox.hi, ox.lo, -through_.x}) sum.add_product(n.x, term);
+    for (const double term : {p.y, oy.hi, oy.lo, -through_.y}) sum.add_product(n.y, term);
     return sum.sign();
   }
 

@@ -57,14 +57,20 @@ std::string open_object(const Row& row) {
 
 // Names are of letters, digits and hyphens: they need no escapes.
 std::string param_json(const Param& p) {
+  const auto cell = [&](double value) -> Cell {
+    if (p.kind == Param::Kind::integer) return static_cast<std::int64_t>(value);
+    if (p.kind == Param::Kind::number) return value;
+    return {};
+  };
   Row row;
   row.set("name", std::string(p.name));
-  Cell fallback;
-  if (!p.required && is_numeric(p)) fallback = p.fallback;
-  if (!p.required && !p.text.empty()) fallback = std::string(p.text);
-  row.set("default", fallback);
-  row.set("min", is_numeric(p) ? Cell(p.min) : Cell());
-  row.set("max", is_numeric(p) ? Cell(p.max) : Cell());
+  if (p.required) {
+    row.set("default", {});
+  } else {
+    row.set("default", p.kind == Param::Kind::choice ? Cell(std::string(p.text)) : cell(p.fallback));
+  }
+  row.set("min", cell(p.min));
+  row.set("max", cell(p.max));
   std::string choices;
   for (const char c : p.choices) choices += c == '|' ? std::string("\",\"") : std::string(1, c);
   if (!choices.empty()) choices = "\"" + choices + "\"";
@@ -85,7 +91,7 @@ std::string entry_json(const Entry& entry, bool is_pattern) {
 }
 
 std::string param_text(const Param& p) {
-  std::string text = fmt::format("    {:<12} ", p.name);
+  std::string text = fmt::format("    {:<17} ", p.name);
   if (p.required) text += "required; ";
   if (is_numeric(p)) text += fmt::format("{}, {} to {}; ", shortest(p.fallback), shortest(p.min), shortest(p.max));
   if (p.kind == Param::Kind::choice) text += fmt::format("{}, one of {}; ", p.text, p.choices);

@@ -212,8 +212,11 @@ void BoundaryIntegral::add_arc(const ArcFrame& arc) {
   if (arc.tiny && !arc.upright) from = arc.v0;  // the centred antiderivative does not vanish left of the support
   if (!(from < to)) return;
   cuts_.assign({from, to});
+  // Right of the support nothing may be cut: there a piece counts by its ends alone, and far out on a large circle these
+  // are not known well enough to tell K(y) = 0 from a little more.
+  const double last_cut = arc.upright || arc.tiny ? to : std::min(to, run_knot(r));
   const auto cut = [&](double v) {
-    if (v > from && v < to) cuts_.push_back(v);
+    if (v > from && v <= last_cut && v < to) cuts_.push_back(v);
   };
   for (const double knot : kernel_.knots()) {
     cut(run_knot(knot));
@@ -270,7 +273,6 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
   const double run_mid = arc.run(mid), other_mid = arc.other_inside(mid);
   const double x_mid = arc.upright ? other_mid : run_mid, y_mid = arc.upright ? run_mid : other_mid;
   const int px = kernel_.piece_of(x_mid), py = kernel_.piece_of(y_mid);
-  if (py < 0 || py >= kernel_.pieces()) return;
   // Walking order: the circle goes from +x towards +y, so y grows on the right quarter and x shrinks on the lower one.
   const double direction = arc.upright ? arc.side : -arc.side;
   const double radius = arc.circle.radius;
@@ -282,6 +284,7 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
       return add_closed_form(direction, y0, y1);
     }
   }
+  if (py < 0 || py >= kernel_.pieces()) return;
 
   // Remainder: v in the ellipse rho around the piece is at most `reach` from its middle. There |v - centre| <= e R, so
   // that |d other / d v| <= e / sqrt(1 - e^2), and the other coordinate stays in a disk around other_mid.

@@ -8,7 +8,7 @@ namespace moire {
 // x + shift for x and shift in [0, 1); a sum that rounds to 1 becomes 0.
 inline double wrapped(double x, double shift) noexcept {
   const double sum = x + shift;
-  return sum >= 1.0 ? sum - 1.0 : sum;
+  return sum - (sum >= 1.0 ? 1.0 : 0.0);  // in this form loops over it vectorise
 }
 
 // Writes the shifted numbers to `to`, which must not overlap `from`.

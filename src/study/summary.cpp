@@ -98,15 +98,16 @@ std::vector<double> trial_numbers(const Case& c) {
   return numbers;
 }
 
-void copy_key(const Row& from, Row& to, std::string_view name) {
+void copy_cell(const Row& from, std::string_view name, Row& to, std::string_view new_name) {
   const Cell* cell = from.find(name);
-  to.set(name, cell == nullptr ? Cell() : *cell);
+  to.set(new_name, cell == nullptr ? Cell() : *cell);
 }
 
 Row summary_row(const Case& c) {
   const Row& first = *c.trials.front();
   Row row;
-  for (const std::string_view name : {"scene", "pattern", "spp", "filter", "estimator"}) copy_key(first, row, name);
+  for (const std::string_view name : {"scene", "pattern", "spp", "filter", "estimator"})
+    copy_cell(first, name, row, name);
   row.set("n_trials", static_cast<std::int64_t>(c.trials.size()));
   for (const std::string region : {"active", "all"}) {
     const std::vector<double> mse = mse_of(c, region);
@@ -157,7 +158,7 @@ Row slope_row(const Series& series, const std::vector<Case>& cases) {
   const std::optional<Slope> slope = fit_slope(points);
   Row row;
   if (!slope) return row;
-  for (const std::string_view name : kSeriesKey) copy_key(*sorted.front()->trials.front(), row, name);
+  for (const std::string_view name : kSeriesKey) copy_cell(*sorted.front()->trials.front(), name, row, name);
   row.set("slope", slope->slope);
   set_interval(row, "slope", slope->interval);
   row.set("ci_method", slope->interval ? Cell(std::string(kSlopeMethod)) : Cell());
@@ -203,7 +204,11 @@ Summary summarize(const Table& rows) {
   }
   for (const Case& c : cases) {
     Row row = summary_row(c);
-    for (const std::string_view name : {"slope", "slope_lo", "slope_hi"}) copy_key(slopes[c.series], row, name);
+    const Row& slope = slopes[c.series];
+    for (const std::string_view name : {"slope", "slope_lo", "slope_hi"}) copy_cell(slope, name, row, name);
+    for (const std::string_view name : {"ci_method", "spp_min", "spp_max", "left_out"}) {
+      copy_cell(slope, name, row, "slope_" + std::string(name));
+    }
     summary.rows.push_back(std::move(row));
   }
   return summary;

@@ -11,7 +11,8 @@ struct Summary {
   //   n_trials; rmse_active, rmse_active_lo, rmse_active_hi, ci_method; the same for rmse_all (MSE averaged over
   //   trials, then the root; 95%); max_abs_active (over trials); bias_active (mean over trials); bias_sq_active and
   //   variance_active; pixels_total, pixels_active (of one image); samples_total, samples_evaluated, fallbacks (sums
-  //   over trials); error_bound (largest); reference_limited; and slope, slope_lo, slope_hi of the row's series.
+  //   over trials); error_bound (largest); reference_limited; and of the row's series slope, slope_lo, slope_hi,
+  //   slope_ci_method, slope_spp_min, slope_spp_max, slope_left_out.
   Table rows;
   // One row per scene, pattern, filter and estimator with a rate: slope of log rmse_active against log spp, slope_lo,
   //   slope_hi, ci_method, n_trials, spp_min, spp_max, n_spp (the points used) and left_out (sample counts that are

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -68,7 +69,8 @@ constexpr double kTotal = 1e-13;
 void check_equal(Exact a, double truth, Exact b = {}) {
   const double error = std::fabs(a.value - truth - b.value);
   if (!(error <= a.bound + b.bound + 0x1p-52)) {  // the subtraction rounds too, values are below 2
-    INFO(a.value << " +- " << a.bound << " against " << truth << " + " << b.value << " +- " << b.bound);
+    INFO(std::setprecision(17) << a.value << " +- " << a.bound << " against " << truth << " + " << b.value << " +- "
+                               << b.bound);
     CHECK(error <= a.bound + b.bound + 0x1p-52);
   }
 }
@@ -116,10 +118,13 @@ TEST_SUITE("unit") {
         const Exact edge = exact_pixel(scenes::edge(p, n), filter, at);
         check_equal(edge, 0, exact_pixel(scenes::edge({-p.x, p.y}, {-n.x, n.y}), filter, mirrored));
         check_equal(edge, 0, exact_pixel(scenes::edge({p.y, p.x}, {n.y, n.x}), filter, at));
-        const Vec2 c{p.x - r, p.y};
-        const Exact disk = exact_pixel(scenes::disk(c, r), filter, at);
-        check_equal(disk, 0, exact_pixel(scenes::disk({-c.x, c.y}, r), filter, mirrored));
-        check_equal(disk, 0, exact_pixel(scenes::disk({c.y, c.x}, r), filter, at));
+        // A 3-4-5 triangle from p to the centre: the circle passes through p, with all numbers exact up to radius 5e8.
+        const double m = i % 2 == 0 ? r / 4 : std::round(draw.log_uniform(1, 1e8));
+        const Vec2 c{p.x + (draw.coin() ? 3 : -3) * m, p.y + (draw.coin() ? 4 : -4) * m};
+        const Exact disk = exact_pixel(scenes::disk(c, 5 * m), filter, at);
+        check_equal(disk, 0, exact_pixel(scenes::disk({-c.x, c.y}, 5 * m), filter, mirrored));
+        check_equal(disk, 0, exact_pixel(scenes::disk({c.x, 1 - c.y}, 5 * m), filter, at));
+        check_equal(disk, 0, exact_pixel(scenes::disk({c.y, c.x}, 5 * m), filter, at));
         const double a = dyadic(-0.5, 0.5), b = dyadic(-0.5, 0.5) + 0x1p-25, g = dyadic(-0.01, 0.01);
         const std::vector<double> extent{-3, 4, -2.5, 3};
         const Exact board = exact_pixel(scenes::board({a, b, 0.25, -b, a, 0.5, g, 0.001, 1}, extent), filter, at);

@@ -1,3 +1,4 @@
+// Areas of half-planes, disks and boards in a square by elementary geometry; see coverage.h.
 #include "oracle/coverage.h"
 
 #include <algorithm>

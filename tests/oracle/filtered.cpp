@@ -1,3 +1,4 @@
+// Iterated Gauss-Legendre quadrature of the kernel over polygons and circular caps; see filtered.h.
 #include "oracle/filtered.h"
 
 #include <algorithm>

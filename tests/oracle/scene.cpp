@@ -1,3 +1,4 @@
+// Stored doubles to 113-bit geometry around a pixel; see scene.h.
 #include "oracle/scene.h"
 
 #include <algorithm>

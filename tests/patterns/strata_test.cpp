@@ -37,7 +37,7 @@ bool one_in_each(const PointSet& set, int columns, int rows) {
 // of the middle between two doubles, which the repeating tail excludes.
 double digit_sum(std::uint32_t i, bool fold) {
   __extension__ using Quad = __float128;
-  Quad sum = 0, weight = 0.5;
+  Quad sum = 0, weight = static_cast<Quad>(0.5);
   for (unsigned k = 0; k < 100; ++k, weight /= 2) {
     const unsigned digit = k < 32 ? i >> k & 1 : 0;
     if ((digit + (fold ? k : 0)) % 2 == 1) sum += weight;

@@ -5,6 +5,7 @@
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -159,7 +160,8 @@ TEST_SUITE("unit") {
     CHECK(records[2][1].text == "y");
     CHECK(records[2][0].text.empty());
     for (std::size_t i = 0; i < table[0].cells().size(); ++i) {
-      const auto& [name, cell] = table[0].cells()[i];
+      const std::string& name = table[0].cells()[i].first;
+      const Cell& cell = table[0].cells()[i].second;
       const Field& field = records[1][i];
       CAPTURE(name);
       CHECK(records[0][i].text == name);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <random>
 #include <thread>
@@ -79,13 +80,17 @@ TEST_SUITE("io") {
     CHECK(folder.entries() == 1);
   }
 
-  TEST_CASE("EXR attributes read back with type and value; integers beyond 32 bits come back as text") {
+  TEST_CASE("EXR attributes read back with type and value, but long integers as text and empty texts not at all") {
     const Folder folder;
     write_exr(folder.file("a.exr"), {2, 1}, hard_pixels(2), kAttributes);
     const ExrImage back = read_exr(folder.file("a.exr"));
     for (const Attribute& a : kAttributes) {
       CAPTURE(a.first);
       const Attribute* found = find(back, a.first);
+      if (a.first == "moire:empty") {
+        CHECK(found == nullptr);
+        continue;
+      }
       REQUIRE(found != nullptr);
       if (a.first == "moire:seed") {
         CHECK(std::get<std::string>(found->second) == "1099511627776");
@@ -96,7 +101,7 @@ TEST_SUITE("io") {
     const Attribute* software = find(back, "Software");
     REQUIRE(software != nullptr);
     CHECK(std::get<std::string>(software->second).rfind("moire ", 0) == 0);
-    CHECK(back.attributes.size() == kAttributes.size() + 1);
+    CHECK(back.attributes.size() == kAttributes.size());  // Software in, the empty one out
   }
 
   TEST_CASE("the same image gives the same bytes at another time, with no date in them") {
@@ -112,7 +117,7 @@ TEST_SUITE("io") {
     CHECK(!exr.empty());
     CHECK(exr == bytes_of(folder.file("b.exr")));
     CHECK(png == bytes_of(folder.file("b.png")));
-    for (const char* trace : {"capDate", "DateTime", "hostComputer", "OpenImageIO", "/tmp"}) {
+    for (const std::string trace : {"capDate", "DateTime", "hostComputer", "OpenImageIO", "/tmp"}) {
       CAPTURE(trace);
       CHECK(exr.find(trace) == std::string::npos);
       CHECK(png.find(trace) == std::string::npos);
@@ -162,11 +167,12 @@ TEST_SUITE("io") {
         {folder.file("absent.exr"), [](const std::string& p) { read_exr(p); }},
         {folder.file("a.unknown"), [&](const std::string& p) { write_png(p, dot); }},
     };
-    for (const auto& [path, action] : cases) {
+    for (const auto& path_and_action : cases) {
+      const std::string& path = path_and_action.first;
       CAPTURE(path);
       bool thrown = false;
       try {
-        action(path);
+        path_and_action.second(path);
       } catch (const Error& error) {
         thrown = true;
         const std::string message = error.what();

@@ -101,7 +101,10 @@ TEST_SUITE("unit") {
       CHECK(row->number("spp_max") == 64);
       CHECK(row->number("n_spp") == 4);
       CHECK(is_empty(*row, "left_out"));
-      CHECK(find(summary.rows, pattern, 4)->number("slope") == row->number("slope"));
+      const Row* case_row = find(summary.rows, pattern, 4);
+      CHECK(case_row->number("slope") == row->number("slope"));
+      CHECK(case_row->text("slope_ci_method") == kSlopeMethod);
+      CHECK(case_row->text("ci_method") == kRmsMethod);
     }
   }
 
@@ -137,7 +140,7 @@ TEST_SUITE("unit") {
     CHECK(is_empty(summary.rows[0], "bias_sq_active"));
   }
 
-  TEST_CASE("failed rows and rows without an error count nowhere; order of rows does not matter to the numbers") {
+  TEST_CASE("failed rows and rows without an error count nowhere, and the order of rows does not matter") {
     Table rows;
     for (const std::int64_t spp : {1, 4, 16}) {
       for (const std::int64_t trial : {0, 1, 2, 3}) {
