@@ -63,6 +63,24 @@ std::vector<Dd> interpolate(const std::function<Dd(Dd)>& f, int n) {
   return c;
 }
 
+// Drops the last terms of all pieces while their absolute sum, which bounds what is lost, stays within `tolerance`.
+void chop(std::vector<std::vector<Dd>>& series, Truncation& truncation, double tolerance) {
+  const auto lost_below = [&](std::size_t terms) {
+    double worst = 0;
+    for (const auto& c : series) {
+      double sum = 0;
+      for (std::size_t j = c.size(); j-- > terms;) sum += std::fabs(c[j].hi);
+      worst = std::max(worst, sum);
+    }
+    return worst;
+  };
+  std::size_t terms = series.front().size();
+  while (terms > 2 && lost_below(terms - 1) <= tolerance) --terms;
+  truncation.error += lost_below(terms);
+  truncation.degree = static_cast<int>(terms) - 1;
+  for (auto& c : series) c.resize(terms);
+}
+
 // Sum of |c_j| rho^j: a bound on the series over the ellipse rho, since |T_j| <= rho^j there.
 double absolute_sum(std::span<const double> c, double rho) {
   double sum = 0;
@@ -96,17 +114,26 @@ Kernel::Kernel(const KernelShape& s) : knots_(s.knots) {
       peak = std::max(peak, std::fabs(s.shape(p, knots_[i] + (knots_[i + 1] - knots_[i]) * j / 8).hi));
     }
   }
-  const Truncation truncation = s.degree < 0 ? choose_degree(s, peak * kUnit / 8) : Truncation{s.degree, 0};
+  Truncation truncation = s.degree < 0 ? choose_degree(s, peak * 0x1p-60) : Truncation{s.degree, 0};
+  std::vector<std::vector<Dd>> k_series;
+  std::vector<Dd> middle, half_length;
+  for (int p = 0; p < pieces(); ++p) {
+    const Dd left = knots_[static_cast<std::size_t>(p)], right = knots_[static_cast<std::size_t>(p) + 1];
+    middle.push_back(Dd(0.5) * (left + right));
+    half_length.push_back(Dd(0.5) * (right - left));
+    k_series.push_back(
+        interpolate([&](Dd t) { return s.shape(p, middle.back() + half_length.back() * t); }, truncation.degree));
+  }
+  if (s.degree < 0) chop(k_series, truncation, peak * kUnit / 4);
   degree_ = truncation.degree;
 
   // Series in double-double, integrated piece by piece; C_j of the antiderivative from c_{j-1} - c_{j+1}.
   const auto terms = static_cast<std::size_t>(degree_ + 1);
-  std::vector<std::vector<Dd>> k_series, K_series;
+  std::vector<std::vector<Dd>> K_series;
   Dd total = 0.0;
-  for (int p = 0; p < pieces(); ++p) {
-    const double left = knots_[static_cast<std::size_t>(p)], right = knots_[static_cast<std::size_t>(p) + 1];
-    const Dd mid = Dd(0.5) * (Dd(left) + Dd(right)), half = Dd(0.5) * (Dd(right) - Dd(left));
-    std::vector<Dd> c = interpolate([&](Dd t) { return s.shape(p, mid + half * t); }, degree_);
+  for (std::size_t p = 0; p < k_series.size(); ++p) {
+    const std::vector<Dd>& c = k_series[p];
+    const Dd half = half_length[p];
     std::vector<Dd> big(terms + 1);
     const auto at = [&](std::size_t j) { return j < terms ? c[j] : Dd(0.0); };
     big[1] = half * (at(0) - at(2) * Dd(0.5));
@@ -118,8 +145,7 @@ Kernel::Kernel(const KernelShape& s) : knots_(s.knots) {
     }
     big[0] = total - at_left;
     total = big[0] + at_right;
-    pieces_.push_back({mid.value(), half.value(), 1 / half.value(), 0, 0});
-    k_series.push_back(std::move(c));
+    pieces_.push_back({middle[p].value(), half.value(), 1 / half.value(), 0, 0});
     K_series.push_back(std::move(big));
   }
 
@@ -204,8 +230,39 @@ double Kernel::K(double x) const noexcept {
   return x <= knots_.front() ? 0.0 : p >= pieces() ? 1.0 : K_piece(p, x);
 }
 
+// Blocks of eight, so that the compiler makes vectors of the inner loops; every lane does what evaluate() does.
 void Kernel::weights(std::span<const double> x, std::span<double> out) const noexcept {
-  for (std::size_t i = 0; i < x.size(); ++i) out[i] = k(x[i]);
+  constexpr std::size_t kLanes = 8;
+  for (std::size_t first = 0; first < x.size(); first += kLanes) {
+    const std::size_t n = std::min(kLanes, x.size() - first);
+    double at[kLanes], value[kLanes] = {};
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      at[i] = x[first + std::min(i, n - 1)];
+      low = std::min(low, at[i]);
+      high = std::max(high, at[i]);
+    }
+    const int last = std::min(piece_of(high), pieces() - 1);
+    for (int p = std::max(piece_of(low), 0); p <= last; ++p) {
+      const Piece& piece = pieces_[static_cast<std::size_t>(p)];
+      const double left = knots_[static_cast<std::size_t>(p)], right = knots_[static_cast<std::size_t>(p) + 1];
+      const double* c = coefficients_.data() + piece.k_first;
+      double t[kLanes], b1[kLanes] = {}, b2[kLanes] = {};
+      for (std::size_t i = 0; i < kLanes; ++i) t[i] = (at[i] - piece.mid) * piece.inverse_half;
+      for (int j = degree_; j >= 1; --j) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          const double b = c[j] + ((t[i] + t[i]) * b1[i] - b2[i]);
+          b2[i] = b1[i];
+          b1[i] = b;
+        }
+      }
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double k = c[0] + (t[i] * b1[i] - b2[i]);
+        value[i] = at[i] >= left && at[i] < right ? k : value[i];
+      }
+    }
+    std::copy(value, value + n, out.begin() + static_cast<std::ptrdiff_t>(first));
+  }
 }
 
 }  // namespace moire

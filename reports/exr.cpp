@@ -1,7 +1,7 @@
 // EXR files through OpenImageIO; part of the module moire_io.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "reports/image_io.h"
@@ -27,10 +27,12 @@ void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
 
 }  // namespace
 
-std::string write_exr_file(const std::string& path, Grid grid, std::span<const float> y,
-                           const std::vector<Attribute>& attributes, const std::string& software) {
-  const auto out = OIIO::ImageOutput::create(path);
+std::string write_exr_file(Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes,
+                           const std::string& software, ImageBytes& bytes) {
+  OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives the writer, which may still use it when it gives up
+  const auto out = OIIO::ImageOutput::create("exr");
   if (!out) return OIIO::geterror();
+  if (!out->set_ioproxy(&memory)) return "this OpenImageIO cannot write EXR to memory";
   OIIO::ImageSpec spec(grid.width, grid.height, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
   spec.attribute("compression", "zip");
@@ -40,7 +42,7 @@ std::string write_exr_file(const std::string& path, Grid grid, std::span<const f
   spec.attribute("DateTime", 0);
   spec.attribute("Software", software);
   for (const Attribute& attribute : attributes) set_attribute(spec, attribute);
-  if (!out->open(path, spec)) return out->geterror();
+  if (!out->open("image.exr", spec)) return out->geterror();
   if (!out->write_image(OIIO::TypeDesc::FLOAT, y.data())) return out->geterror();
   if (!out->close()) return out->geterror();
   return {};

@@ -41,22 +41,18 @@ fs::path resolve(const std::string& path) {
 
 }  // namespace
 
-void write_renamed(const std::string& path, const std::function<void(const std::string&)>& write) {
+void write_whole(const std::string& path, std::string_view bytes) {
   const fs::path target = resolve(path);
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
   if (fs::is_directory(status)) fail(path, "cannot be written", "it is a folder");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write(target.string());
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_plain(target.string(), bytes, path);
 
-  fs::path part = target;
-  part.replace_filename(target.stem().string() + ".part" + target.extension().string());
-  // Asked here, since not every writer says why it cannot open its file.
-  std::FILE* probe = std::fopen(part.c_str(), "wb");
-  if (probe == nullptr) fail(path, "cannot be written", std::strerror(errno));
-  std::fclose(probe);
+  // File systems take names of 255 bytes; names alike in their first 250 must not be written at the same time.
+  const fs::path part = target.parent_path() / (target.filename().string().substr(0, 250) + ".part");
   try {
-    write(part.string());
-  } catch (...) {
+    write_plain(part.string(), bytes, path);
+  } catch (const Error&) {
     fs::remove(part, error);
     throw;
   }
@@ -66,10 +62,6 @@ void write_renamed(const std::string& path, const std::function<void(const std::
     fs::remove(part, error);
     fail(path, "cannot be written", reason);
   }
-}
-
-void write_whole(const std::string& path, std::string_view bytes) {
-  write_renamed(path, [&](const std::string& part) { write_plain(part, bytes, path); });
 }
 
 void make_folder(const std::string& path) {

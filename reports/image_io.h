@@ -9,20 +9,23 @@
 
 namespace moire {
 
-// Each returns what went wrong, empty when nothing did, and writes exactly the file that it is told to.
+using ImageBytes = std::vector<unsigned char>;
+
+// Each returns what went wrong, empty when nothing did. Files are written to memory: a full disk is noticed by whoever
+// puts the bytes there, which not every format's writer does.
 struct ImageIo {
-  std::string (*write_exr)(const std::string& path, Grid grid, std::span<const float> y,
-                           const std::vector<Attribute>& attributes, const std::string& software);
+  std::string (*write_exr)(Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes,
+                           const std::string& software, ImageBytes& bytes);
   std::string (*read_exr)(const std::string& path, ExrImage& image);
-  std::string (*write_png)(const std::string& path, const Raster& raster, const std::string& software);
+  std::string (*write_png)(const Raster& raster, const std::string& software, ImageBytes& bytes);
   std::string (*read_png)(const std::string& path, Raster& raster);
 };
 
 // The module's functions, by file.
-std::string write_exr_file(const std::string& path, Grid grid, std::span<const float> y,
-                           const std::vector<Attribute>& attributes, const std::string& software);
+std::string write_exr_file(Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes,
+                           const std::string& software, ImageBytes& bytes);
 std::string read_exr_file(const std::string& path, ExrImage& image);
-std::string write_png_file(const std::string& path, const Raster& raster, const std::string& software);
+std::string write_png_file(const Raster& raster, const std::string& software, ImageBytes& bytes);
 std::string read_png_file(const std::string& path, Raster& raster);
 
 }  // namespace moire

@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.h"
@@ -38,14 +39,15 @@ const ImageIo& image_io() {
   return io;
 }
 
+std::string_view text_of(const ImageBytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 std::string software() { return "moire " + tool().version; }
 
-// Throws what OpenImageIO says of `file`, on one line, as a matter of `path`.
-void check(const std::string& path, const std::string& file, const char* what, std::string reason) {
+// Throws what OpenImageIO says, on one line.
+void check(const std::string& path, const char* what, std::string reason) {
   if (reason.empty()) return;
-  for (std::size_t at = 0; (at = reason.find(file, at)) != std::string::npos; at += path.size()) {
-    reason.replace(at, file.size(), path);
-  }
   while (!reason.empty() && reason.back() == '\n') reason.pop_back();
   for (char& c : reason) {
     if (c == '\n') c = ' ';
@@ -57,15 +59,14 @@ void check(const std::string& path, const std::string& file, const char* what, s
 
 void write_exr(const std::string& path, Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes) {
   assert(y.size() == static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
-  const ImageIo& io = image_io();
-  write_renamed(path, [&](const std::string& part) {
-    check(path, part, "cannot be written", io.write_exr(part, grid, y, attributes, software()));
-  });
+  ImageBytes bytes;
+  check(path, "cannot be written", image_io().write_exr(grid, y, attributes, software(), bytes));
+  write_whole(path, text_of(bytes));
 }
 
 ExrImage read_exr(const std::string& path) {
   ExrImage image;
-  check(path, path, "cannot be read", image_io().read_exr(path, image));
+  check(path, "cannot be read", image_io().read_exr(path, image));
   return image;
 }
 
@@ -74,15 +75,14 @@ void write_png(const std::string& path, const Raster& raster) {
   assert(raster.pixels.size() == static_cast<std::size_t>(raster.grid.width) *
                                      static_cast<std::size_t>(raster.grid.height) *
                                      static_cast<std::size_t>(raster.channels));
-  const ImageIo& io = image_io();
-  write_renamed(path, [&](const std::string& part) {
-    check(path, part, "cannot be written", io.write_png(part, raster, software()));
-  });
+  ImageBytes bytes;
+  check(path, "cannot be written", image_io().write_png(raster, software(), bytes));
+  write_whole(path, text_of(bytes));
 }
 
 Raster read_png(const std::string& path) {
   Raster raster;
-  check(path, path, "cannot be read", image_io().read_png(path, raster));
+  check(path, "cannot be read", image_io().read_png(path, raster));
   return raster;
 }
 

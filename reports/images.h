@@ -33,8 +33,8 @@ struct Raster {
   std::vector<std::pair<std::string, std::string>> text;
 };
 
-// The files appear whole, at `path`, which must end in .exr or .png. The same image and attributes give the same
-// bytes; no time stamps. `Software` is added. All throw Error (Exit::io) naming path and reason.
+// The files appear whole (file.h), in the format of the function, whatever the name. The same image and attributes give
+// the same bytes; no time stamps. `Software` is added. All throw Error (Exit::io) naming path and reason.
 
 // float32, ZIP; every value keeps its bits, NaN and infinities too.
 void write_exr(const std::string& path, Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes);

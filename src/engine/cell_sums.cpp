@@ -20,6 +20,17 @@ CellSums::CellSums(const Kernel& kernel, int reach) : kernel_(kernel), reach_(re
   partial_.resize(side * side * 2 * kLanes);
 }
 
+void CellSums::weigh(std::span<const double> coordinate, std::vector<double>& weighed, std::vector<double>& weights) {
+  if (std::equal(coordinate.begin(), coordinate.end(), weighed.begin(), weighed.end())) return;
+  weighed.assign(coordinate.begin(), coordinate.end());
+  for (int d = -reach_; d <= reach_; ++d) {
+    // The sample's distance from the centre of the pixel d cells to the right (below).
+    for (std::size_t i = 0; i < coordinate.size(); ++i) offset_[i] = coordinate[i] - (d + 0.5);
+    kernel_.weights({offset_.data(), coordinate.size()},
+                    {weights.data() + static_cast<std::size_t>(d + reach_) * kChunk, coordinate.size()});
+  }
+}
+
 void CellSums::operator()(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
                           std::span<const std::uint8_t> needed, std::span<WeightSum> sums, OwnCount& own) {
   own = {};
@@ -34,16 +45,8 @@ void CellSums::operator()(std::span<const double> x, std::span<const double> y, 
   std::fill(partial_.begin(), partial_.end(), 0.0);
   for (std::size_t first = 0; first < x.size(); first += kChunk) {
     const std::size_t n = std::min(kChunk, x.size() - first);
-    // The sample's distance from the centre of the pixel d cells to the right (below).
-    const auto weigh = [&](std::span<const double> coordinate, std::vector<double>& weights) {
-      for (std::size_t d = 0; d < side; ++d) {
-        const double center = static_cast<double>(d) - reach_ + 0.5;
-        for (std::size_t i = 0; i < n; ++i) offset_[i] = coordinate[first + i] - center;
-        kernel_.weights({offset_.data(), n}, {weights.data() + d * kChunk, n});
-      }
-    };
-    weigh(x, kx_);
-    weigh(y, ky_);
+    weigh(x.subspan(first, n), weighed_x_, kx_);
+    weigh(y.subspan(first, n), weighed_y_, ky_);
     for (std::size_t i = 0; i < n; ++i) {
       const double dx = x[first + i] - 0.5, dy = y[first + i] - 0.5, r = kernel_.radius();
       if (dx >= -r && dx < r && dy >= -r && dy < r) {

@@ -5,10 +5,11 @@
 
 namespace moire {
 
-// x + shift for x and shift in [0, 1); a sum that rounds to 1 becomes 0.
+// x + shift for x and shift in [0, 1); a sum that rounds to 1 becomes 0. Loops over it vectorise only if the
+// subtraction, which is exact where it counts, does not wait for the comparison.
 inline double wrapped(double x, double shift) noexcept {
-  const double sum = x + shift;
-  return sum - (sum >= 1.0 ? 1.0 : 0.0);  // in this form loops over it vectorise
+  const double sum = x + shift, less = sum - 1.0;
+  return less >= 0.0 ? less : sum;
 }
 
 // Writes the shifted numbers to `to`, which must not overlap `from`.

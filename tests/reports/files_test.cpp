@@ -227,17 +227,19 @@ TEST_SUITE("io") {
     write_whole(path, "one");
     write_whole(path, "two");
     CHECK(bytes_of(path) == "two");
-    std::string seen;
-    CHECK_THROWS_AS(write_renamed(path,
-                                  [&](const std::string& part) {
-                                    seen = part;
-                                    std::ofstream(part) << "half";
-                                    throw Error("x", "y", Exit::io);
-                                  }),
-                    Error);
-    CHECK(seen != path);
-    CHECK(seen.substr(seen.size() - 4) == ".txt");
+    const SmallFiles small(1000);
+    std::string message;
+    CHECK(exit_of([&] { write_whole(path, std::string(100000, 'x')); }, message) == Exit::io);
+    CHECK(message == path + ": cannot be written: File too large");
     CHECK(bytes_of(path) == "two");
+    CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("a name as long as file systems take can be written") {
+    const Folder folder;
+    const std::string path = folder.file(std::string(255, 'n'));
+    write_whole(path, "x");
+    CHECK(bytes_of(path) == "x");
     CHECK(folder.entries() == 1);
   }
 

@@ -165,7 +165,6 @@ TEST_SUITE("io") {
         {folder.file("missing/a.png"), [&](const std::string& p) { write_png(p, dot); }},
         {folder.file("not.exr"), [](const std::string& p) { read_exr(p); }},
         {folder.file("absent.exr"), [](const std::string& p) { read_exr(p); }},
-        {folder.file("a.unknown"), [&](const std::string& p) { write_png(p, dot); }},
     };
     for (const auto& path_and_action : cases) {
       const std::string& path = path_and_action.first;
@@ -186,6 +185,22 @@ TEST_SUITE("io") {
       CHECK(thrown);
     }
     CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("a full disk is an error, and leaves no part of an image") {
+    const Folder folder;
+    const std::vector<float> y = hard_pixels(200 * 200);
+    Raster raster{{200, 200}, 1, {}, {}};
+    for (const float v : y) raster.pixels.push_back(static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(v) >> 9));
+    {
+      const SmallFiles small(4096);
+      CHECK_THROWS_AS(write_exr(folder.file("a.exr"), {200, 200}, y, {}), Error);
+      CHECK_THROWS_AS(write_png(folder.file("a.png"), raster), Error);
+    }
+    CHECK(folder.entries() == 0);
+    write_exr(folder.file("a.exr"), {200, 200}, y, {});
+    write_png(folder.file("a.png"), raster);
+    CHECK(folder.entries() == 2);
   }
 
   // Run by the next case from a copy of this program in a folder of its own.

@@ -1,0 +1,211 @@
+// Sampled images: skipping and threads change no bit, over the whole catalogue; and the error has the law it must have.
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "catalogue.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/sum.h"
+#include "engine/exact.h"
+#include "engine/render.h"
+
+using namespace moire;
+using namespace moire::test;
+
+namespace {
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+bool same(const Rendered& a, const Rendered& b) {
+  if (a.value.size() != b.value.size() || a.fallbacks != b.fallbacks || a.samples_evaluated != b.samples_evaluated) {
+    return false;
+  }
+  for (std::size_t i = 0; i < a.value.size(); ++i) {
+    if (!same_bits(a.value[i], b.value[i])) return false;
+  }
+  return true;
+}
+
+// Pixels of the exhaustive image that differ from the default path: active ones from their values, flat ones from
+// exactly +0.0 or 1.
+int differences(const Rendered& some, const Rendered& all, const ActiveRows& rows) {
+  int count = 0;
+  std::size_t index = 0, pixel = 0;
+  for (int y = 0; y < rows.grid().height; ++y) {
+    for (const Run& r : rows.row(y)) {
+      for (int x = r.x0; x < r.x1; ++x, ++pixel) {
+        const double want = r.cover == Cover::partial ? some.value[index++] : r.cover == Cover::all ? 1.0 : 0.0;
+        count += !same_bits(all.value[pixel], want);
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE("unit") {
+  TEST_CASE("skipping changes no bit: every pattern, filter and scene, with few and more samples") {
+    const std::vector<Filter> filters = filter_catalogue();
+    for (const PatternChoice& choice : pattern_catalogue()) {
+      for (const int n : {1, 4, 9}) {
+        const Pattern pattern(choice, n, {7, 3});
+        for (const auto& [name, scene] : scene_catalogue()) {
+          for (const Filter& filter : filters) {
+            CAPTURE(choice.text());
+            CAPTURE(filter.text());
+            CAPTURE(name);
+            CAPTURE(n);
+            const ActiveRows rows = enumerate(scene, filter.radius());
+            const Rendered some = render(scene, pattern, filter, Estimator::ratio, rows);
+            const Rendered all = render(scene, pattern, filter, Estimator::ratio, rows, true);
+            CHECK(differences(some, all, rows) == 0);
+            CHECK(some.fallbacks == all.fallbacks);
+            CHECK(some.samples_total == all.samples_total);
+            CHECK(all.samples_evaluated == all.samples_total);
+            CHECK(some.samples_evaluated <= some.samples_total);
+          }
+        }
+      }
+    }
+  }
+
+  TEST_CASE("one thread and several give the same bits, and so does a second run") {
+    for (const auto& [name, scene] : scene_catalogue()) {
+      CAPTURE(name);
+      for (const Filter& filter : filter_catalogue()) {
+        const ActiveRows rows = enumerate(scene, filter.radius());
+        const auto run = [&](int threads) {
+          const ThreadLimit limit(threads);
+          const Pattern pattern(PatternChoice(parse_spec("dart-throwing:k=50", "test")), 5, {1, 0});
+          return render(scene, pattern, filter, Estimator::ratio, rows);
+        };
+        const Rendered one = run(1);
+        CHECK(same(one, run(2)));
+        CHECK(same(one, run(4)));
+      }
+    }
+  }
+
+  TEST_CASE("a sample on the edge x = 256 of normal 180 is inside, and pixel 256 is not skipped") {
+    // Hammersley's first point is x = 0: in pixel 256 it lies on the line itself, so one sample of n is inside.
+    const TestImage scene = scenes::edge({256, 0}, 180, {512, 4});
+    const Filter box(parse_spec("box", "test"));
+    const ActiveRows rows = enumerate(scene, box.radius());
+    const Pattern pattern(PatternChoice(parse_spec("hammersley", "test")), 16, {});
+    const Rendered some = render(scene, pattern, box, Estimator::ratio, rows);
+    const Rendered all = render(scene, pattern, box, Estimator::ratio, rows, true);
+    CHECK(differences(some, all, rows) == 0);
+    CHECK(all.value[255] == 1.0);
+    CHECK(all.value[256] == 1.0 / 16);
+    CHECK(all.value[257] == 0.0);
+  }
+
+  TEST_CASE("scenes whose boundary lies within a few ulp of samples are skipped without a difference") {
+    const Filter box(parse_spec("box", "test")), tent(parse_spec("tent", "test"));
+    for (int ulps = -4; ulps <= 4; ++ulps) {
+      double x = 24;
+      for (int i = 0; i < std::abs(ulps); ++i) x = std::nextafter(x, ulps > 0 ? 100 : 0);
+      CAPTURE(ulps);
+      const TestImage scenes_near[] = {scenes::edge({x, 0}, 180, {48, 8}), scenes::edge({x + 0.25, 0}, 0, {48, 8}),
+                                       scenes::disk({x - 5, 4}, 5, {48, 8}), scenes::disk({x + 5.5, 4}, 5, {48, 8})};
+      for (const TestImage& scene : scenes_near) {
+        for (const Filter* filter : {&box, &tent}) {
+          const ActiveRows rows = enumerate(scene, filter->radius());
+          const Pattern pattern(PatternChoice(parse_spec("hammersley", "test")), 4, {});
+          CHECK(differences(render(scene, pattern, *filter, Estimator::ratio, rows),
+                            render(scene, pattern, *filter, Estimator::ratio, rows, true), rows) == 0);
+        }
+      }
+    }
+  }
+
+  TEST_CASE("a cut-out of a scene has the same values as the whole image there") {
+    // The same geometry, seen from an image whose origin is elsewhere: patterns draw by absolute pixel, so only those
+    // without a draw are compared.
+    const TestImage whole = scenes::disk({23.5, 20.25}, 14.25, {48, 40}), part = scenes::disk({23.5, 10.25}, 14.25, {48, 30});
+    const Pattern pattern(PatternChoice(parse_spec("zaremba", "test")), 16, {});
+    for (const Filter& filter : filter_catalogue()) {
+      const ActiveRows a = enumerate(whole, filter.radius()), b = enumerate(part, filter.radius());
+      const Rendered all = render(whole, pattern, filter, Estimator::ratio, a, true);
+      const Rendered cut = render(part, pattern, filter, Estimator::ratio, b, true);
+      int different = 0;
+      for (std::size_t i = 0; i < cut.value.size(); ++i) different += !same_bits(cut.value[i], all.value[i + 10 * 48]);
+      CHECK(different == 0);
+    }
+  }
+
+  TEST_CASE("with vanishing weight sums the control variate stands in, counted, and flat windows stay exact") {
+    // One sample per pixel and negative lobes: some weight sums fall below a quarter of what they should be.
+    const TestImage scene = scenes::disk({24.13, 23.9}, 15.3, {48, 48});
+    const Filter filter(parse_spec("catmull-rom", "test"));
+    const ActiveRows rows = enumerate(scene, filter.radius());
+    std::int64_t fallbacks = 0;
+    for (std::uint32_t trial = 0; trial < 8; ++trial) {
+      const Pattern pattern(PatternChoice(parse_spec("random", "test")), 1, {1, trial});
+      const Rendered r = render(scene, pattern, filter, Estimator::ratio, rows);
+      fallbacks += r.fallbacks;
+      // sum k f / sum k with sum k >= rho / 4, or mean + (...) / rho: both bounded by 4 sum |k| / rho, |k| <= 1.16^2, 25 cells.
+      for (const double v : r.value) CHECK(std::fabs(v) <= 4 * 25 * 1.35);
+    }
+    CHECK(fallbacks > 0);
+    // Own samples outside a window of half a pixel: the scene at the centre stands in.
+    const Filter narrow(parse_spec("box:width=0.0625", "test"));
+    const ActiveRows narrow_rows = enumerate(scene, narrow.radius());
+    const Pattern one(PatternChoice(parse_spec("random", "test")), 1, {1, 0});
+    const Rendered r = render(scene, one, narrow, Estimator::ratio, narrow_rows, true);
+    for (const double v : r.value) CHECK((v == 0 || v == 1));
+    CHECK(r.fallbacks > 0);
+  }
+
+  TEST_CASE("a 4096 x 4096 edge needs less than a thousandth of its samples") {
+    const TestImage scene = scenes::edge({2048.3, 2047.1}, 97.3, {4096, 4096});
+    const Filter box(parse_spec("box", "test"));
+    const ActiveRows rows = enumerate(scene, box.radius());
+    const Pattern pattern(PatternChoice(parse_spec("jittered", "test")), 4, {});
+    const Rendered r = render(scene, pattern, box, Estimator::ratio, rows);
+    CHECK(r.samples_total == std::int64_t{4} * 4096 * 4096);
+    CHECK(static_cast<double>(r.samples_evaluated) < 1e-3 * static_cast<double>(r.samples_total));
+  }
+
+  TEST_CASE("estimators have names, and unknown ones are refused with the known") {
+    for (const std::string_view name : estimator_names()) CHECK_NOTHROW(find_estimator(name, "test"));
+    CHECK_THROWS_AS(find_estimator("ratoi", "test"), Error);
+  }
+}
+
+TEST_SUITE("unit") {
+  // Of n independent samples in a pixel of exact coverage A the number inside is binomial: err^2 has mean A (1 - A) / n and
+  // variance (m4 - m2^2), m4 the binomial's fourth central moment over n^4. The pooled z over many pixels and trials is
+  // standard normal up to the sum's own skewness; |z| < 4 has a false-alarm rate of 6e-5 at a fixed seed.
+  TEST_CASE("random points: the squared error of box pixels has the binomial's mean") {
+    const Filter box(parse_spec("box", "test"));
+    for (const auto& [name, scene] : {std::pair{"edge", scenes::edge({128.3, 127.1}, 97.3, {256, 256})},
+                                      std::pair{"disk", scenes::disk({127.7, 128.3}, 100.25, {256, 256})}}) {
+      const ActiveRows rows = enumerate(scene, box.radius());
+      const Reference truth = exact(scene, box, rows);
+      for (const int n : {1, 4, 16}) {
+        Sum excess, variance;
+        for (std::uint32_t trial = 0; trial < 64; ++trial) {
+          const Pattern pattern(PatternChoice(parse_spec("random", "test")), n, {1, trial});
+          const Rendered r = render(scene, pattern, box, Estimator::ratio, rows);
+          for (std::size_t i = 0; i < r.value.size(); ++i) {
+            const double a = std::fmin(std::fmax(truth.value[i], 0), 1), q = a * (1 - a);
+            const double m2 = q / n, m4 = (3 * q * q * (n - 2) + q) / (double(n) * n * n);
+            const double error = r.value[i] - truth.value[i];
+            excess.add(error * error - m2);
+            variance.add(m4 - m2 * m2);
+          }
+        }
+        const double z = excess.value() / std::sqrt(variance.value());
+        CAPTURE(name);
+        CAPTURE(n);
+        CAPTURE(z);
+        CHECK(std::fabs(z) < 4);
+      }
+    }
+  }
+}
