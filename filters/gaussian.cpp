@@ -4,23 +4,53 @@
 // radius 3/2, offset. Other systems mean other filters by the same name.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 #include "core/dd_math.h"
+#include "core/error.h"
 #include "filters/filter.h"
 
 namespace moire {
 namespace {
 
-constexpr Param kParams[] = {number("sigma", 0.5, 0.05, 16, "standard deviation in pixels, before cutting"),
-                             number("radius", 1.5, 0.0625, 16, "half width in pixels"),
-                             choice("cut", "offset", "cut|offset", "at the radius: jump to zero, or lowered to zero")};
+constexpr Param kParams[] = {
+    number("sigma", 0.5, 0.05, 16, "standard deviation in pixels, before cutting"),
+    number("radius", 1.5, 0.0625, 16, "half width in pixels"),
+    choice("cut", "offset", "cut|offset", "at the radius: jump to zero, or lowered to zero"),
+    choice("preset", "none", "none|pbrt|mitsuba|imagemagick|ospray|renderman|arnold|cycles|oiio|oiio-sharp",
+           "what a system means by its default Gaussian; in place of the other parameters")};
+
+// A Gaussian as a system has it, at that system's default width.
+struct Preset {
+  std::string_view name;
+  double sigma, radius;
+  bool offset;
+};
+// Read in the systems' sources and manuals: pbrt-v4, Mitsuba 3, ImageMagick 7, OSPRay's look-up table at width 3, the
+// RenderMan Interface's 2 x 2 filter and Arnold's width 2 after it, Cycles at width 1.5, OpenImageIO 2.4 at its widths 3
+// (sigma = width / 4) and 2 (exp(-4 x^2)).
+constexpr Preset kPresets[] = {
+    {"pbrt", 0.5, 1.5, true},       {"mitsuba", 0.5, 2, true},     {"imagemagick", 0.5, 2, false},
+    {"ospray", 0.5, 1.5, false},    {"renderman", 0.5, 1, false},  {"arnold", 0.5, 1, false},
+    {"cycles", 0.375, 2.25, false}, {"oiio", 0.75, 1.5, false},    {"oiio-sharp", 0.5 * std::numbers::sqrt2 / 2, 1, false}};
 
 struct Gaussian {
   double sigma, radius;
   bool offset;
 
   explicit Gaussian(const Args& a)
-      : sigma(a.number("sigma")), radius(a.number("radius")), offset(a.text("cut") == "offset") {}
+      : sigma(a.number("sigma")), radius(a.number("radius")), offset(a.text("cut") == "offset") {
+    const std::string_view name = a.text("preset");
+    if (name == "none") return;
+    if (sigma != 0.5 || radius != 1.5 || !offset) {
+      throw Error(a.place(), "filter \"gaussian\": a preset sets sigma, radius and cut; give the preset or these");
+    }
+    const auto it = std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return p.name == name; });
+    sigma = it->sigma;
+    radius = it->radius;
+    offset = it->offset;
+  }
 
   // Pieces of at most 3/2 sigma, where degree 17 reaches rounding.
   std::vector<double> knots() const {

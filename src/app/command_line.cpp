@@ -50,7 +50,15 @@ class Words {
   void flag(const std::string& name, const std::string& about) { app_->add_flag(name, flags_[name], about); }
 
   bool chosen() const { return app_->parsed(); }
-  std::string help() const { return app_->help(); }
+  // The usage line of CLI11 has every word in brackets, as if it could be left out.
+  std::string help() const {
+    std::string text = app_->help("moire") + "\n";
+    for (const auto& [name, unused] : text_) {
+      const std::size_t at = text.find("[" + name + "]");
+      if (at != std::string::npos) text.replace(at, name.size() + 2, name);
+    }
+    return text;
+  }
   const std::string& name() const { return app_->get_name(); }
   std::string place() const { return "moire " + app_->get_name(); }
 
@@ -240,7 +248,7 @@ Command parse_command_line(int argc, const char* const* argv) {
     for (const Entry& e : entries) {
       if (e.words.chosen()) return TextOptions{e.words.help()};
     }
-    return TextOptions{app.help()};
+    return TextOptions{app.help() + "\n"};
   } catch (const CLI::CallForVersion& version) {
     return TextOptions{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& e) {

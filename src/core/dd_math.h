@@ -34,6 +34,23 @@ inline Dd dd_cos_pi(int p, int q) {
   return dd_cos_sin(unit * Dd(0.5 * (q - 2 * p))).sin;
 }
 
+// cos(pi x) and sin(pi x) for |x| < 2^50, absolute error below 2^-98: x less its nearest multiple of 1/2 is exact.
+inline CosSin dd_cos_sin_pi(Dd x) {
+  const double halves = std::nearbyint(2 * x.hi);
+  CosSin r = dd_cos_sin(kPi * (x - Dd(0.5 * halves)));
+  for (double turns = std::fmod(halves, 4.0); turns != 0; turns -= std::copysign(1.0, turns)) {
+    r = turns > 0 ? CosSin{-r.sin, r.cos} : CosSin{r.sin, -r.cos};
+  }
+  return r;
+}
+inline Dd dd_cos_pi(Dd x) { return dd_cos_sin_pi(x).cos; }
+
+// sin(pi x) / (pi x), 1 at 0.
+inline Dd dd_sinc(Dd x) {
+  if (x.hi == 0) return 1.0;
+  return dd_cos_sin_pi(x).sin / (kPi * x);
+}
+
 // exp(x), relative error below 2^-94 (2^-101 per unit of |x|, plus the series); 0 below -745.
 inline Dd dd_exp(Dd x) {
   if (x.hi < -745) return 0.0;

@@ -244,13 +244,14 @@ TEST_SUITE("cli") {
                     "step = 1e-9 }\n",
          {":7:10", "more than 100000 scenes"}},
     };
-    for (const auto& [text, says] : studies) {
+    for (const auto& study : studies) {
+      const std::string& text = study.first;
       CAPTURE(text);
       const std::string file = folder.write("study.toml", text);
       const bool missing_file = text.find("none.toml") != std::string::npos;
       const int code = missing_file ? 3 : 2;
-      check_refused({{"run", file, "-o", folder / "out"}, code, says});
-      check_refused({{"run", file, "--dry-run"}, code, says});
+      check_refused({{"run", file, "-o", folder / "out"}, code, study.second});
+      check_refused({{"run", file, "--dry-run"}, code, study.second});
       CHECK_FALSE(std::filesystem::exists(folder / "out"));
     }
   }

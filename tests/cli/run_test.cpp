@@ -143,9 +143,9 @@ TEST_SUITE("cli") {
       }
       CHECK(outcome.out == first_out);
       REQUIRE(files.size() == first.size());
-      for (const auto& [name, bytes] : files) {
-        CAPTURE(name);
-        CHECK((bytes == first.at(name)));
+      for (const auto& file : files) {
+        CAPTURE(file.first);
+        CHECK((file.second == first.at(file.first)));
       }
       std::filesystem::remove_all(folder / "out");
     }

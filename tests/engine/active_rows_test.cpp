@@ -44,7 +44,7 @@ TEST_SUITE("unit") {
       const Filter tent(parse_spec("tent", "test"));
       const ActiveRows rows = enumerate(scene, tent.radius());
       int wrong = 0;
-      for (int y = 0; y < 40; ++y) {
+      for (int y = 0; y < rows.grid().height; ++y) {
         for (const Run& r : rows.row(y)) {
           if (r.cover == Cover::partial) continue;
           for (int x = r.x0; x < r.x1; ++x) {

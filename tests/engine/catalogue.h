@@ -5,33 +5,32 @@
 #include <utility>
 #include <vector>
 
-#include "filters/filter.h"
+#include "filter_list.h"
 #include "patterns/pattern.h"
 #include "scenes.h"
 
 namespace moire::test {
 
 // One or more scenes of each kind, the hard ones among them.
-inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid = {48, 40}) {
+inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid = {32, 28}) {
   using namespace scenes;
   std::vector<std::pair<std::string, TestImage>> all;
-  all.emplace_back("edge", edge({23.3, 20.7}, 97.3, grid));
+  all.emplace_back("edge", edge({15.3, 14.7}, 97.3, grid));
   // Points of low-discrepancy patterns lie exactly on this line.
-  all.emplace_back("edge on x = 24", edge({24, 0}, 180, grid));
+  all.emplace_back("edge on x = 16", edge({16, 0}, 180, grid));
   all.emplace_back("edge through lattice points", edge({8, 8}, {1, -2}, grid));
-  all.emplace_back("disk", disk({23.7, 20.2}, 14.25, grid));
-  all.emplace_back("disk through lattice points", disk({24, 20}, 5, grid));
-  all.emplace_back("small disk", disk({23.9, 20.1}, 0.2, grid));
-  all.emplace_back("board", board({.focal = 40, .principal = {24, 16}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
+  all.emplace_back("disk", disk({15.7, 14.2}, 9.25, grid));
+  all.emplace_back("disk through lattice points", disk({16, 14}, 5, grid));
+  all.emplace_back("small disk", disk({15.9, 14.1}, 0.2, grid));
+  all.emplace_back("board", board({.focal = 28, .principal = {16, 11}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
                                   {-3, 4, 1, 9}, grid));
-  all.emplace_back("board on the pixel grid", board({0.25, 0, -2, 0, 0.25, -1, 0, 0, 1}, {0, 6, 0, 5}, grid));
+  all.emplace_back("board on the pixel grid", board({0.25, 0, -1, 0, 0.25, -1, 0, 0, 1}, {0, 4, 0, 3}, grid));
   return all;
 }
 
 inline std::vector<Filter> filter_catalogue() {
   std::vector<Filter> all;
-  for (const FilterInfo* f : filters()) all.emplace_back(parse_spec(f->name, "test"));
-  for (const char* text : {"box:width=0.5", "box:width=1.5", "gaussian:cut=cut"}) all.emplace_back(parse_spec(text, "test"));
+  for (const std::string& text : filter_texts()) all.emplace_back(parse_spec(text, "test"));
   return all;
 }
 

@@ -11,21 +11,18 @@
 #include <vector>
 
 #include "engine/exact.h"
+#include "filter_list.h"
 #include "oracle/coverage.h"
 #include "oracle/filtered.h"
 
 namespace moire {
 
-// The filters that exact values are compared under.
-inline constexpr const char* kWideFilters[] = {"tent",
-                                               "mitchell",
-                                               "mitchell:b=0.5,c=0.25",
-                                               "catmull-rom",
-                                               "gaussian",
-                                               "gaussian:cut=cut",
-                                               "gaussian:sigma=0.375,radius=2.25",
-                                               "box:width=1.7",
-                                               "tent:radius=1.5"};
+// All but the plain box, which has a test and a tolerance of its own.
+inline std::vector<std::string> wide_filters() {
+  std::vector<std::string> texts = test::filter_texts();
+  texts.erase(std::remove(texts.begin(), texts.end(), "box"), texts.end());
+  return texts;
+}
 
 class ExactComparison {
  public:

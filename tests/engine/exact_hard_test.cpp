@@ -14,7 +14,7 @@ constexpr double kFar = 0x1p40;
 
 std::vector<ExactComparison> all_filters() {
   std::vector<ExactComparison> all{{"box", kBoxTolerance}};
-  for (const char* filter : kWideFilters) all.emplace_back(filter, kWideTolerance);
+  for (const std::string& filter : wide_filters()) all.emplace_back(filter, kWideTolerance);
   return all;
 }
 

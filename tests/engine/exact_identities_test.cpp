@@ -9,22 +9,15 @@
 
 #include "engine/exact.h"
 #include "engine/random_scenes.h"
+#include "filter_list.h"
 #include "oracle/scene.h"
 
 namespace moire {
 namespace {
 
-// Every filter of the catalogue with its defaults, and a few with other parameters.
 std::vector<Filter> every_filter() {
   std::vector<Filter> all;
-  for (const FilterInfo* info : filters()) {
-    bool needs_more = false;
-    for (const Param& p : info->params) needs_more |= p.required;
-    if (!needs_more) all.emplace_back(parse_spec(info->name, "test"));
-  }
-  for (const char* text : {"mitchell:b=0.5,c=0.25", "tent:radius=2", "tent:radius=1.5", "box:width=1.7", "box:width=2",
-                           "gaussian:cut=cut", "gaussian:sigma=0.375,radius=2.25"})
-    all.emplace_back(parse_spec(text, "test"));
+  for (const std::string& text : test::filter_texts()) all.emplace_back(parse_spec(text, "test"));
   return all;
 }
 

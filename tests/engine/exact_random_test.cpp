@@ -31,7 +31,7 @@ void compare_box(double median_bound, const Next& next) {
 
 template <class Next>
 void compare_wide(int pixels, double median_bound, const Next& next) {
-  for (const char* filter : kWideFilters) {
+  for (const std::string& filter : wide_filters()) {
     ExactComparison compare(filter, kWideTolerance);
     for (int i = 0; i < pixels; ++i) {
       const RandomCase c = next(compare.radius());
