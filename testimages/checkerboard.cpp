@@ -173,6 +173,15 @@ class Checkerboard {
 
   void boundary(Pixel origin, double half_width, Boundary& out) const;
 
+  // Where W = 0, for a board without end.
+  bool meets_horizon(Pixel origin, Rect r) const noexcept {
+    if (std::isfinite(extent_.u0)) return false;
+    const Row w = localize(h_, origin, 0).w;
+    const double low = std::min(w.a * r.lo.x, w.a * r.hi.x) + std::min(w.b * r.lo.y, w.b * r.hi.y) + w.c.value();
+    const double high = std::max(w.a * r.lo.x, w.a * r.hi.x) + std::max(w.b * r.lo.y, w.b * r.hi.y) + w.c.value();
+    return low <= 0 && high >= 0;
+  }
+
   StoredDoubles stored() const {
     StoredDoubles s{{"homography", {stored_.begin(), stored_.end()}}};
     if (std::isfinite(extent_.u0)) s.emplace_back("extent", std::vector{extent_.u0, extent_.u1, extent_.v0, extent_.v1});

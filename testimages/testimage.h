@@ -42,6 +42,13 @@ concept TestImageType = std::constructible_from<S, const Args&, Grid> &&
   { s.stored() } -> std::same_as<StoredDoubles>;
 };
 
+// A scene may reach to a horizon, beyond which it has no detail but towards which its detail has no end: whether the
+// closed rectangle r, relative to the upper left corner of pixel `origin`, meets it.
+template <class S>
+concept HasHorizon = requires(const S& s, Pixel origin, Rect r) {
+  { s.meets_horizon(origin, r) } noexcept -> std::same_as<bool>;
+};
+
 // One constant record per kind of scene.
 struct TestImageInfo {
   std::string_view name, title, cite;
@@ -52,6 +59,7 @@ struct TestImageInfo {
   Cover (*cover)(const void*, Pixel, Rect) noexcept;
   void (*boundary)(const void*, Pixel, double, Boundary&);
   StoredDoubles (*stored)(const void*);
+  bool (*meets_horizon)(const void*, Pixel, Rect) noexcept;  // null: has none
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -81,6 +89,9 @@ class TestImage {
   void boundary(Pixel origin, double half_width, Boundary& out) const {
     info_->boundary(self_.get(), origin, half_width, out);
   }
+  bool meets_horizon(Pixel origin, Rect r) const noexcept {
+    return info_->meets_horizon != nullptr && info_->meets_horizon(self_.get(), origin, r);
+  }
 
  private:
   const TestImageInfo* info_;
@@ -94,6 +105,15 @@ struct TestImageText {
   std::span<const Param> params;
 };
 
+template <class S>
+constexpr auto horizon_of() -> bool (*)(const void*, Pixel, Rect) noexcept {
+  if constexpr (HasHorizon<S>) {
+    return [](const void* p, Pixel o, Rect r) noexcept { return static_cast<const S*>(p)->meets_horizon(o, r); };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
   return {t.name, t.title, t.cite, t.params,
@@ -102,7 +122,8 @@ constexpr TestImageInfo describe(const TestImageText& t) {
              std::span<std::uint8_t> in) noexcept { static_cast<const S*>(p)->contains(run, x, y, in); },
           [](const void* p, Pixel o, Rect r) noexcept { return static_cast<const S*>(p)->cover(o, r); },
           [](const void* p, Pixel o, double h, Boundary& out) { static_cast<const S*>(p)->boundary(o, h, out); },
-          [](const void* p) { return static_cast<const S*>(p)->stored(); }};
+          [](const void* p) { return static_cast<const S*>(p)->stored(); },
+          horizon_of<S>()};
 }
 
 }  // namespace moire

@@ -2,7 +2,6 @@
 #include "app/image_files.h"
 
 #include <algorithm>
-#include <span>
 #include <vector>
 
 #include "app/definition.h"
@@ -16,36 +15,50 @@ namespace {
 // -0.0 becomes +0.0; all else stays.
 float to_float(double value) { return static_cast<float>(value) + 0.0F; }
 
-// A dense image from the values of the active pixels. Flat pixels are 0 or 1, or all 0 when `is_error`.
-std::vector<float> dense(const ActiveRows& rows, std::span<const double> active, bool is_error) {
+// The image of what windows without boundary hold: 0 or 1, or no error at all.
+std::vector<float> flat_image(const ActiveRows& rows, bool is_error) {
   const Grid grid = rows.grid();
   std::vector<float> image(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  if (is_error) return image;
   auto out = image.begin();
-  auto next = active.begin();
   for (int y = 0; y < grid.height; ++y) {
     for (const Run& run : rows.row(y)) {
       const auto count = static_cast<std::ptrdiff_t>(run.x1 - run.x0);
-      if (run.cover == Cover::partial) {
-        std::transform(next, next + count, out, to_float);
-        next += count;
-      } else if (run.cover == Cover::all && !is_error) {
-        std::fill_n(out, count, 1.0F);
-      }
+      if (run.cover == Cover::all) std::fill_n(out, count, 1.0F);
       out += count;
     }
   }
   return image;
 }
 
+std::size_t pixel_index(const ActiveRows& rows, int x, int y) {
+  return static_cast<std::size_t>(std::int64_t{y} * rows.grid().width + x);
+}
+
+std::vector<float> dense_exact(const Truth& truth) {
+  std::vector<float> image = flat_image(truth.rows, false);
+  for_each_active(truth.rows, [&](int x, int y, std::int64_t i) {
+    image[pixel_index(truth.rows, x, y)] = to_float(truth.exact.value[static_cast<std::size_t>(i)]);
+  });
+  return image;
+}
+
 std::vector<float> dense_got(const Truth& truth, const CaseResult& result) {
-  if (!result.got.dense) return dense(truth.rows, result.got.value, false);
-  std::vector<float> image(result.got.value.size());
-  std::transform(result.got.value.begin(), result.got.value.end(), image.begin(), to_float);
+  std::vector<float> image = flat_image(truth.rows, false);
+  for_each_rendered(truth.rows, result.got, [&](int x, int y, Cover, double value) {
+    image[pixel_index(truth.rows, x, y)] = to_float(value);
+  });
   return image;
 }
 
 std::vector<float> dense_error(const Truth& truth, const CaseResult& result) {
-  return dense(truth.rows, result.error, true);
+  std::vector<float> image = flat_image(truth.rows, true);
+  std::size_t active = 0;
+  for_each_rendered(truth.rows, result.got, [&](int x, int y, Cover cover, double value) {
+    const double error = cover == Cover::partial ? result.error[active++] : value - (cover == Cover::all ? 1.0 : 0.0);
+    image[pixel_index(truth.rows, x, y)] = to_float(error);
+  });
+  return image;
 }
 
 std::vector<Attribute> exact_attributes(const Study& study, std::uint32_t scene, std::uint32_t filter) {
@@ -75,7 +88,7 @@ std::vector<Attribute> case_attributes(const char* kind, const Study& study, con
 
 void write_exact_exr(const std::string& path, const Study& study, std::uint32_t scene, std::uint32_t filter,
                      const Truth& truth) {
-  write_exr(path, truth.rows.grid(), dense(truth.rows, truth.exact.value, false),
+  write_exr(path, truth.rows.grid(), dense_exact(truth),
             exact_attributes(study, scene, filter));
 }
 
@@ -92,7 +105,7 @@ void write_error_exr(const std::string& path, const Study& study, const Case& c,
 void write_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter,
                         const Truth& truth) {
   const std::string stem = folder + "/" + exact_stem(study, scene, filter);
-  const std::vector<float> image = dense(truth.rows, truth.exact.value, false);
+  const std::vector<float> image = dense_exact(truth);
   write_exr(stem + ".exact.exr", truth.rows.grid(), image, exact_attributes(study, scene, filter));
   write_png(stem + ".exact.png", reconstruction_preview(truth.rows.grid(), image));
 }

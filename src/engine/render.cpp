@@ -15,7 +15,7 @@
 namespace moire {
 namespace {
 
-constexpr auto kEstimatorNames = std::to_array<std::string_view>({"ratio"});
+constexpr auto kEstimatorNames = std::to_array<std::string_view>({"ratio", "unnormalised", "control-variate"});
 
 // Points generated and tested at a time, unless one pixel has more.
 constexpr int kBatch = 1024;
@@ -30,16 +30,17 @@ struct Interval {
 // The pixels of each row that are reconstructed, as sorted disjoint intervals.
 using Wanted = std::vector<std::vector<Interval>>;
 
-Wanted wanted_pixels(const ActiveRows& rows, bool exhaustive) {
+Wanted wanted_pixels(const ActiveRows& rows, Pixels pixels) {
   Wanted wanted(static_cast<std::size_t>(rows.grid().height));
   for (int y = 0; y < rows.grid().height; ++y) {
     auto& row = wanted[static_cast<std::size_t>(y)];
-    if (exhaustive) {
-      row.push_back({0, rows.grid().width});
-      continue;
-    }
     for (const Run& r : rows.row(y)) {
-      if (r.cover == Cover::partial) row.push_back({r.x0, r.x1});
+      if (!is_rendered(pixels, r.cover)) continue;
+      if (!row.empty() && row.back().x1 == r.x0) {
+        row.back().x1 = r.x1;
+      } else {
+        row.push_back({r.x0, r.x1});
+      }
     }
   }
   return wanted;
@@ -52,23 +53,29 @@ struct CellRow {
   std::vector<WeightSum> sums;     // side * side per cell
   std::vector<OwnCount> own;
 
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  // Where the cell's sums are; kNone for a cell that was skipped, whose samples are all outside the scene.
   std::size_t index(int x) const {
-    const auto it = std::upper_bound(cells.begin(), cells.end(), x, [](int v, const Interval& c) { return v < c.x0; });
-    const auto i = static_cast<std::size_t>(it - cells.begin()) - 1;
-    return first[i] + static_cast<std::size_t>(x - cells[i].x0);
+    const auto it = std::upper_bound(cells.begin(), cells.end(), x, [](int v, const Interval& c) { return v < c.x1; });
+    if (it == cells.end() || x < it->x0) return kNone;
+    return first[static_cast<std::size_t>(it - cells.begin())] + static_cast<std::size_t>(x - it->x0);
   }
 };
 
 class Renderer {
  public:
-  Renderer(const TestImage& scene, const Pattern& pattern, const Filter& filter, const Wanted& wanted, Grid grid)
+  Renderer(const TestImage& scene, const Pattern& pattern, const Filter& filter, const Wanted& wanted, Grid grid,
+           Estimator estimator, bool skip_empty_cells)
       : scene_(scene),
         pattern_(pattern),
         kernel_(filter.kernel()),
         reach_(filter.apron()),
         side_(static_cast<std::size_t>(2 * reach_ + 1)),
         wanted_(wanted),
-        grid_(grid) {}
+        grid_(grid),
+        estimator_(estimator),
+        skip_empty_cells_(skip_empty_cells) {}
 
   // The cells of row y that the windows of wanted pixels touch.
   CellRow cell_row(int y) const {
@@ -85,6 +92,7 @@ class Renderer {
         row.cells.push_back(c);
       }
     }
+    if (skip_empty_cells_) row.cells = not_empty(row.cells, y);
     std::size_t count = 0;
     for (const Interval& c : row.cells) {
       row.first.push_back(count);
@@ -132,28 +140,47 @@ class Renderer {
     bool fallback;
   };
 
-  // The ratio estimator: sum k f / sum k over the samples of all cells that the window touches; where the weights add up
-  // to less than a quarter of what they should, the control variate. `rows` are the cell rows y - reach to y + reach.
-  Value ratio(int x, int y, std::span<const CellRow* const> rows) const {
+  // Pixel (x, y) from the sums over all cells that its window touches; `rows` are the cell rows y - reach to y + reach.
+  Value estimate(int x, int y, std::span<const CellRow* const> rows) const {
     double k = 0, kf = 0;
     for (std::size_t j = 0; j < side_; ++j) {
-      const std::size_t first = rows[j]->index(x - reach_);
       for (std::size_t i = 0; i < side_; ++i) {
+        const std::size_t cell = rows[j]->index(x - reach_ + static_cast<int>(i));
+        if (cell == CellRow::kNone) continue;
         // Seen from the cell, the pixel lies at the opposite offset.
-        const WeightSum& s = rows[j]->sums[(first + i) * side_ * side_ + (side_ - 1 - j) * side_ + (side_ - 1 - i)];
+        const WeightSum& s = rows[j]->sums[cell * side_ * side_ + (side_ - 1 - j) * side_ + (side_ - 1 - i)];
         k += s.k;
         kf += s.kf;
       }
     }
+    // Adding +0.0 turns a negative zero, from a negative lobe, into a positive one.
     const double rho = pattern_.n();
-    if (k >= rho / 4) return {kf / k + 0.0, false};
-    const OwnCount& own = rows[static_cast<std::size_t>(reach_)]->own[rows[static_cast<std::size_t>(reach_)]->index(x)];
+    if (estimator_ == Estimator::unnormalised) return {kf / rho + 0.0, false};
+    if (estimator_ == Estimator::ratio && k >= rho / 4) return {kf / k + 0.0, false};
+    const CellRow& own_row = *rows[static_cast<std::size_t>(reach_)];
+    const OwnCount& own = own_row.own[own_row.index(x)];
     const double mean = own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples)
                                         : inside_center({x, y});
-    return {mean + (kf - mean * k) / rho + 0.0, true};
+    return {mean + (kf - mean * k) / rho + 0.0, estimator_ == Estimator::ratio};
   }
 
  private:
+  // The cells of row y that may hold something of the scene.
+  std::vector<Interval> not_empty(const std::vector<Interval>& cells, int y) const {
+    std::vector<Interval> kept;
+    for (const Interval& c : cells) {
+      for (int x = c.x0; x < c.x1; ++x) {
+        if (scene_.cover({x, y}, {{0, 0}, {1, 1}}) == Cover::none) continue;
+        if (!kept.empty() && kept.back().x1 == x) {
+          ++kept.back().x1;
+        } else {
+          kept.push_back({x, x + 1});
+        }
+      }
+    }
+    return kept;
+  }
+
   double inside_center(Pixel pixel) const {
     const double center = 0.5;
     std::uint8_t inside = 0;
@@ -183,6 +210,8 @@ class Renderer {
   std::size_t side_;
   const Wanted& wanted_;
   Grid grid_;
+  Estimator estimator_;
+  bool skip_empty_cells_;
 };
 
 // Whether pixel x of a row is active; `runs` covers the row.
@@ -202,18 +231,24 @@ Estimator find_estimator(std::string_view name, std::string_view place) {
   throw Error(std::string(place), unknown_name("estimator", name, kEstimatorNames));
 }
 
-Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator, const ActiveRows& rows,
-                bool exhaustive) {
+Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,
+                const ActiveRows& rows, bool exhaustive) {
   const Grid grid = rows.grid();
   const int reach = filter.apron();
   const std::int64_t n = pattern.n();
   Rendered out;
-  out.dense = exhaustive;
+  const bool linear = estimator == Estimator::unnormalised;
+  out.pixels = exhaustive ? Pixels::every : linear ? Pixels::covered : Pixels::active;
   out.samples_total = n * (grid.width + 2 * std::int64_t{reach}) * (grid.height + 2 * std::int64_t{reach});
-  out.value.resize(static_cast<std::size_t>(exhaustive ? std::int64_t{grid.width} * grid.height : rows.active_pixels()));
-
-  const Wanted wanted = wanted_pixels(rows, exhaustive);
-  const Renderer renderer(scene, pattern, filter, wanted, grid);
+  const Wanted wanted = wanted_pixels(rows, out.pixels);
+  std::vector<std::size_t> first_value{0};  // of each row
+  for (const auto& row : wanted) {
+    std::size_t count = first_value.back();
+    for (const Interval& w : row) count += static_cast<std::size_t>(w.x1 - w.x0);
+    first_value.push_back(count);
+  }
+  out.value.resize(first_value.back());
+  const Renderer renderer(scene, pattern, filter, wanted, grid, estimator, linear && !exhaustive);
   std::vector<std::int64_t> fallbacks(static_cast<std::size_t>(grid.height));
   std::deque<CellRow> cells;  // rows first_cell .. next_cell - 1
   int first_cell = -reach, next_cell = -reach, next_pixel = 0;
@@ -235,10 +270,10 @@ Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& fi
       const int y = next_pixel + static_cast<int>(i);
       std::vector<const CellRow*> around;
       for (int j = y - reach; j <= y + reach; ++j) around.push_back(&cells[static_cast<std::size_t>(j - first_cell)]);
-      auto index = static_cast<std::size_t>(exhaustive ? std::int64_t{y} * grid.width : rows.first_active(y));
+      std::size_t index = first_value[static_cast<std::size_t>(y)];
       for (const Interval& w : wanted[static_cast<std::size_t>(y)]) {
         for (int x = w.x0; x < w.x1; ++x) {
-          const auto [value, fallback] = renderer.ratio(x, y, around);
+          const auto [value, fallback] = renderer.estimate(x, y, around);
           out.value[index++] = value;
           fallbacks[static_cast<std::size_t>(y)] += fallback && (!exhaustive || is_active(rows.row(y), x));
         }

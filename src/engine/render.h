@@ -12,24 +12,51 @@
 
 namespace moire {
 
-// How samples become a pixel.
-enum class Estimator : std::uint8_t { ratio };
+// How samples x_i with values f_i become a pixel; k the filter's weights, rho the samples per pixel.
+enum class Estimator : std::uint8_t {
+  ratio,           // sum k f / sum k; the control variate where sum k < rho / 4. Exact on flat windows.
+  unnormalised,    // sum k f / rho: unbiased and linear, so that spectral theory applies; noisy on flat windows
+  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact on flat windows
+};
 
 // The estimators by name; throws Error naming the nearest ones.
 std::span<const std::string_view> estimator_names();
 Estimator find_estimator(std::string_view name, std::string_view place);
 
+// Which pixels have a value of their own; the others are exactly 0 or 1, as their windows are.
+enum class Pixels : std::uint8_t {
+  active,   // ratio and control_variate: flat windows give exactly 0 or 1
+  covered,  // unnormalised: also the pixels whose windows are all inside, where the weights' sum shows
+  every     // exhaustive
+};
+
 struct Rendered {
-  // Default: one value per active pixel, row-major. Exhaustive: one value per pixel, row-major (dense = true).
-  bool dense = false;
-  std::vector<double> value;
+  Pixels pixels = Pixels::active;
+  std::vector<double> value;           // of these pixels, row-major
   std::int64_t samples_total = 0;      // samples of the image grown by the filter's apron
   std::int64_t samples_evaluated = 0;  // point tests made
   std::int64_t fallbacks = 0;          // active pixels whose weight sum was too small
 };
 
-// `exhaustive` evaluates every sample of every pixel, without any skipping; the values of active pixels are the same
-// bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and filter.radius().
+// Whether pixels of a run of this cover have a value of their own.
+constexpr bool is_rendered(Pixels pixels, Cover cover) {
+  return pixels == Pixels::every || cover == Cover::partial || (pixels == Pixels::covered && cover == Cover::all);
+}
+
+// Calls f(x, y, cover, value) for every pixel with a value of its own, row-major.
+template <class F>
+void for_each_rendered(const ActiveRows& rows, const Rendered& rendered, F&& f) {
+  std::size_t index = 0;
+  for (int y = 0; y < rows.grid().height; ++y) {
+    for (const Run& run : rows.row(y)) {
+      if (!is_rendered(rendered.pixels, run.cover)) continue;
+      for (std::int32_t x = run.x0; x < run.x1; ++x) f(x, y, run.cover, rendered.value[index++]);
+    }
+  }
+}
+
+// `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default path
+// are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and filter.radius().
 Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive = false);
 

@@ -30,38 +30,38 @@ std::int64_t nanoseconds_since(Clock::time_point start) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
 }
 
-// Errors of the active pixels, and the tallies of both regions. A dense image is checked in every pixel, as
-// --exhaustive promises; otherwise inactive pixels are exact by definition and only counted.
+// Errors of the active pixels, and the tallies of the regions. Pixels without a value of their own are exact by
+// definition and only counted.
 void measure(const Truth& truth, CaseResult& result) {
-  const Grid grid = truth.rows.grid();
-  const std::vector<double>& got = result.got.value;
   const std::vector<double>& want = truth.exact.value;
-  const auto dense_index = [&](std::int64_t x, std::int64_t y) { return static_cast<std::size_t>(y * grid.width + x); };
   result.error.reserve(want.size());
-  ErrorTally active;
-  for_each_active(truth.rows, [&](int x, int y, std::int64_t index) {
-    const auto i = static_cast<std::size_t>(index);
-    const double value = got[result.got.dense ? dense_index(x, y) : i];
-    active.add(x, y, value, want[i]);
-    result.error.push_back(value - want[i]);
+  ErrorTally active, all, horizon;
+  std::int64_t counted = 0;
+  for_each_rendered(truth.rows, result.got, [&](int x, int y, Cover cover, double value) {
+    ++counted;
+    if (cover != Cover::partial) return all.add(x, y, value, cover == Cover::all ? 1.0 : 0.0);
+    const double exact = want[result.error.size()];
+    active.add(x, y, value, exact);
+    if (!truth.horizon.empty() && truth.horizon[result.error.size()] != 0) horizon.add(x, y, value, exact);
+    all.add(x, y, value, exact);
+    result.error.push_back(value - exact);
   });
   result.active = active.finish();
-  if (!result.got.dense) {
-    active.add_exact(std::int64_t{grid.width} * grid.height - truth.rows.active_pixels());
-    result.all = active.finish();
-    return;
-  }
-  ErrorTally all;
-  std::size_t next_active = 0;
-  for (int y = 0; y < grid.height; ++y) {
-    for (const Run& run : truth.rows.row(y)) {
-      for (std::int32_t x = run.x0; x < run.x1; ++x) {
-        const double exact = run.cover == Cover::partial ? want[next_active++] : run.cover == Cover::all ? 1.0 : 0.0;
-        all.add(x, y, got[dense_index(x, y)], exact);
-      }
-    }
-  }
+  result.horizon = horizon.finish();
+  all.add_exact(std::int64_t{truth.rows.grid().width} * truth.rows.grid().height - counted);
   result.all = all.finish();
+}
+
+std::vector<std::uint8_t> horizon_pixels(const TestImage& scene, const Filter& filter, const ActiveRows& rows) {
+  if (scene.info().meets_horizon == nullptr) return {};
+  std::vector<std::uint8_t> horizon;
+  bool any = false;
+  const double r = filter.radius();
+  for_each_active(rows, [&](int x, int y, std::int64_t) {
+    horizon.push_back(scene.meets_horizon({x, y}, {{0.5 - r, 0.5 - r}, {0.5 + r, 0.5 + r}}));
+    any |= horizon.back() != 0;
+  });
+  return any ? horizon : std::vector<std::uint8_t>{};
 }
 
 void set_images(const Study& study, const Case& c, Row& row) {
@@ -128,7 +128,8 @@ Truth find_truth(const TestImage& scene, const Filter& filter) {
   const auto start = Clock::now();
   ActiveRows rows = enumerate(scene, filter.radius());
   Reference reference = exact(scene, filter, rows);
-  return {std::move(rows), std::move(reference), nanoseconds_since(start)};
+  std::vector<std::uint8_t> horizon = horizon_pixels(scene, filter, rows);
+  return {std::move(rows), std::move(reference), std::move(horizon), nanoseconds_since(start)};
 }
 
 CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, std::int64_t setup_ns,
@@ -165,6 +166,7 @@ CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, s
   row.set("bias_sq_active", {});
   row.set("variance_active", {});
   set_errors(row, "all", result.all);
+  if (!truth.horizon.empty()) set_errors(row, "horizon", result.horizon);
   row.set("reference_method", std::string("analytic"));
   row.set("error_bound", truth.exact.max_bound);
   row.set("reference_limited", reference_limited(result.active.rmse, truth.exact.max_bound));

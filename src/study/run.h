@@ -21,6 +21,7 @@ namespace moire {
 struct Truth {
   ActiveRows rows;
   Reference exact;
+  std::vector<std::uint8_t> horizon;  // per active pixel: 1 where its window meets the horizon; empty: none does
   std::int64_t time_ns = 0;  // wall time of both
 };
 
@@ -30,7 +31,7 @@ Truth find_truth(const TestImage& scene, const Filter& filter);
 struct CaseResult {
   Rendered got;
   std::vector<double> error;  // got - exact of the active pixels, row-major
-  Errors active, all;
+  Errors active, all, horizon;
   Row row;
 };
 
