@@ -43,7 +43,7 @@ struct Gaussian {
       : sigma(a.number("sigma")), radius(a.number("radius")), offset(a.text("cut") == "offset") {
     const std::string_view name = a.text("preset");
     if (name == "none") return;
-    if (sigma != 0.5 || radius != 1.5 || !offset) {
+    if (a.given("sigma") || a.given("radius") || a.given("cut")) {
       throw Error(a.place(), "filter \"gaussian\": a preset sets sigma, radius and cut; give the preset or these");
     }
     const auto it = std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return p.name == name; });

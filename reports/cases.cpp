@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "study/scene_file.h"
+
 namespace moire {
 namespace {
 
@@ -13,14 +15,14 @@ void add_new(std::vector<T>& list, const T& value) {
 
 }  // namespace
 
-std::string Kernel::label() const {
+std::string Reconstruction::label() const {
   return estimator.empty() || estimator == "ratio" ? filter : filter + ", " + estimator;
 }
 
 Cases::Cases(const Table& rows) {
   for (const Row& row : rows) {
-    const std::string scene(row.text("scene")), pattern(row.text("pattern"));
-    const Kernel kernel{std::string(row.text("filter")), std::string(row.text("estimator"))};
+    const std::string scene(scene_family(row.text("scene"))), pattern(row.text("pattern"));
+    const Reconstruction kernel{std::string(row.text("filter")), std::string(row.text("estimator"))};
     const Cell* cell = row.find("spp");
     const auto* count = cell == nullptr ? nullptr : std::get_if<std::int64_t>(cell);
     const std::int64_t spp = count == nullptr ? 0 : *count;
@@ -36,13 +38,13 @@ Cases::Cases(const Table& rows) {
   std::sort(spp_.begin(), spp_.end());
 }
 
-const std::vector<const Row*>& Cases::at(const std::string& scene, const std::string& pattern, const Kernel& kernel,
+const std::vector<const Row*>& Cases::at(const std::string& scene, const std::string& pattern, const Reconstruction& kernel,
                                          std::int64_t spp) const {
   const auto found = rows_.find({scene, pattern, kernel, spp});
   return found == rows_.end() ? none_ : found->second;
 }
 
-const Row* Cases::first(const std::string& scene, const std::string& pattern, const Kernel& kernel,
+const Row* Cases::first(const std::string& scene, const std::string& pattern, const Reconstruction& kernel,
                         std::int64_t spp) const {
   const auto& rows = at(scene, pattern, kernel, spp);
   return rows.empty() ? nullptr : rows.front();

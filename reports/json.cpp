@@ -4,7 +4,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "core/args.h"
 #include "core/error.h"
@@ -31,6 +34,36 @@ struct ToJson {
   std::string operator()(const std::string& value) const { return json_text(value); }
 };
 
+Row row_of(const nlohmann::ordered_json& object, const std::string& place) {
+  if (!object.is_object()) throw Error(place, "is not a JSON object on one line");
+  Row row;
+  for (const auto& [name, value] : object.items()) {
+    if (name == "kind") continue;
+    if (value.is_null()) {
+      row.set(name, {});
+    } else if (value.is_boolean()) {
+      row.set(name, value.get<bool>());
+    } else if (value.is_number_float()) {
+      row.set(name, value.get<double>());
+    } else if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) {
+      throw Error(place, "\"" + name + "\" is an integer beyond 64 bits with sign");
+    } else if (value.is_number_integer()) {
+      row.set(name, value.get<std::int64_t>());
+    } else if (value.is_string()) {
+      row.set(name, value.get<std::string>());
+    } else {
+      throw Error(place, "\"" + name + "\" must be a number, text, true, false or null");
+    }
+  }
+  return row;
+}
+
+// The text at a JSON pointer, "" when there is none.
+std::string text_at(const nlohmann::ordered_json& object, const char* path) {
+  const nlohmann::ordered_json::json_pointer pointer(path);
+  return object.contains(pointer) && object[pointer].is_string() ? object[pointer].get<std::string>() : std::string();
+}
+
 }  // namespace
 
 std::string json_header(const Tool& tool, const Host& host, const StudyText& study) {
@@ -55,34 +88,75 @@ std::string json_row(const Row& row, std::string_view kind) {
 }
 
 Row parse_json_row(std::string_view line, const std::string& place) {
-  const auto object = nlohmann::ordered_json::parse(line, nullptr, false);
-  if (!object.is_object()) throw Error(place, "is not a JSON object on one line");
-  Row row;
-  for (const auto& [name, value] : object.items()) {
-    if (name == "kind") continue;
-    if (value.is_null()) {
-      row.set(name, {});
-    } else if (value.is_boolean()) {
-      row.set(name, value.get<bool>());
-    } else if (value.is_number_float()) {
-      row.set(name, value.get<double>());
-    } else if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) {
-      throw Error(place, "\"" + name + "\" is an integer beyond 64 bits with sign");
-    } else if (value.is_number_integer()) {
-      row.set(name, value.get<std::int64_t>());
-    } else if (value.is_string()) {
-      row.set(name, value.get<std::string>());
-    } else {
-      throw Error(place, "\"" + name + "\" must be a number, text, true, false or null");
+  return row_of(nlohmann::ordered_json::parse(line, nullptr, false), place);
+}
+
+ResultsFile read_results(const std::string& path) {
+  ResultsFile found;
+  if (!std::filesystem::exists(path)) return found;
+  std::ifstream file(path, std::ios::binary);
+  const auto check = [&] {
+    if (!file.eof() && file.fail()) {
+      throw Error(path, std::string("cannot be read: ") + std::strerror(errno == 0 ? EIO : errno), Exit::io);
     }
+  };
+  errno = 0;
+  check();
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    const std::string place = path + ":" + std::to_string(number);
+    const bool has_end = !file.eof(), is_last = !has_end || file.peek() == std::ifstream::traits_type::eof();
+    const auto object = nlohmann::ordered_json::parse(line, nullptr, false);
+    if (is_last && (!has_end || !object.is_object())) {
+      found.cut = line;
+      break;
+    }
+    if (text_at(object, "/kind") != (number == 1 ? "header" : "row")) {
+      throw Error(place, number == 1 ? "is not the header of results" : "is not a row of results; mend or remove it");
+    }
+    if (number == 1) {
+      found.header = line;
+    } else {
+      found.rows.push_back(row_of(object, place));
+    }
+    found.whole_bytes += line.size() + 1;
   }
-  return row;
+  check();
+  return found;
+}
+
+std::string header_difference(const std::string& found, const std::string& expected) {
+  const auto a = nlohmann::ordered_json::parse(found, nullptr, false);
+  const auto b = nlohmann::ordered_json::parse(expected, nullptr, false);
+  struct Part {
+    const char *what, *path;
+  };
+  constexpr Part kParts[] = {
+      {"schema", "/schema"},       {"study", "/study/sha256"}, {"name of the study", "/study/name"},
+      {"build", "/tool/version"},  {"build", "/tool/commit"},  {"build", "/tool/build_type"},
+      {"build", "/tool/compiler"}, {"build", "/tool/flags"},   {"build", "/tool/fp_contract"}};
+  for (const Part& part : kParts) {
+    const std::string there = text_at(a, part.path), here = text_at(b, part.path);
+    if (there == here) continue;
+    const std::string_view field = std::string_view(part.path).substr(std::string_view(part.path).rfind('/') + 1);
+    return std::string("another ") + part.what + " (" + std::string(field) + " \"" + there + "\", here \"" + here +
+           "\")";
+  }
+  return {};
 }
 
 JsonLines::JsonLines(std::string path, std::string header)
     : path_(std::move(path)), header_(std::move(header)), file_(std::fopen(path_.c_str(), "wb")) {
   if (!file_) throw Error(path_, std::string("cannot be written: ") + std::strerror(errno), Exit::io);
   put(header_);
+}
+
+JsonLines::JsonLines(std::string path, const ResultsFile& found) : path_(std::move(path)), header_(found.header) {
+  std::error_code error;
+  std::filesystem::resize_file(path_, found.whole_bytes, error);
+  if (error) throw Error(path_, "cannot be written: " + error.message(), Exit::io);
+  file_.reset(std::fopen(path_.c_str(), "ab"));
+  if (!file_) throw Error(path_, std::string("cannot be written: ") + std::strerror(errno), Exit::io);
 }
 
 void JsonLines::put(const std::string& line) {

@@ -1,6 +1,7 @@
 // Results as JSON Lines (jsonlines.org): a header line, then one line per row. Grows while a run goes on.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -23,11 +24,33 @@ std::string json_row(const Row& row, std::string_view kind = "row");
 // Throws Error at `place` for anything but an object of numbers, texts, booleans and nulls.
 Row parse_json_row(std::string_view line, const std::string& place);
 
-// A results file: rows are there as soon as they are appended, in any order; finish() writes the file again, whole and
-// in plan order. All throw Error (Exit::io) naming path and reason.
+// A results file as a run that was stopped left it.
+struct ResultsFile {
+  std::string header;              // its first line, without the line end; "" when that is not whole
+  Table rows;                      // row i stands in line i + 2
+  std::uintmax_t whole_bytes = 0;  // of header and rows
+  std::string cut;                 // a last line that is not whole
+};
+
+// Reads a results file; one that is not there is empty. A last line without its end, or that is no JSON object, is
+// taken for one that was being written as the program was killed. Throws Error with PATH:LINE for anything else that is
+// no header or row, and (Exit::io) for a file that cannot be read.
+ResultsFile read_results(const std::string& path);
+
+// In which way the headers of two runs differ, so that their rows do not belong together: "another study (...)",
+// "another build (...)", ...; "" when they do belong together. The kind of machine may differ: rows depend on it in
+// their times alone.
+std::string header_difference(const std::string& found, const std::string& expected);
+
+// The results file of a run that goes on: rows are there as soon as they are appended, in any order; finish() writes
+// the file again, whole and in plan order. All throw Error (Exit::io) naming path and reason.
 class JsonLines {
  public:
+  // A new file, in place of an old one.
   JsonLines(std::string path, std::string header);
+  // Goes on with a file that has a header, cutting it to its whole lines first.
+  JsonLines(std::string path, const ResultsFile& found);
+
   void append(const Row& row);
   void finish(const Table& rows);
 

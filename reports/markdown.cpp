@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "reports/cases.h"
+#include "reports/contrast.h"
+#include "study/scene_file.h"
 
 namespace moire {
 namespace {
@@ -42,16 +45,16 @@ std::string slope_text(const Row* row) {
 }
 
 // A table with one column per kernel.
-void add_table(std::string& out, const std::string& corner, const std::vector<Kernel>& kernels,
-               const std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>>& lines) {
+void add_table(std::string& out, const std::string& corner, const std::vector<Reconstruction>& kernels,
+               const std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>>& lines) {
   out += "| " + corner + " |";
-  for (const Kernel& k : kernels) out += fmt::format(" {} |", code(k.label()));
+  for (const Reconstruction& k : kernels) out += fmt::format(" {} |", code(k.label()));
   out += "\n|:--|";
   for (std::size_t i = 0; i < kernels.size(); ++i) out += ":--|";
   out += "\n";
   for (const auto& [head, cell] : lines) {
     out += "| " + head + " |";
-    for (const Kernel& k : kernels) out += fmt::format(" {} |", cell(k));
+    for (const Reconstruction& k : kernels) out += fmt::format(" {} |", cell(k));
     out += "\n";
   }
   out += "\n";
@@ -72,7 +75,7 @@ struct Report {
 
 void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
   std::vector<std::string> filters, estimators, spp;
-  for (const Kernel& k : r.raw.kernels()) {
+  for (const Reconstruction& k : r.raw.kernels()) {
     if (std::find(filters.begin(), filters.end(), k.filter) == filters.end()) filters.push_back(k.filter);
     if (std::find(estimators.begin(), estimators.end(), k.estimator) == estimators.end()) {
       estimators.push_back(k.estimator);
@@ -85,10 +88,17 @@ void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
   out += "## What was run\n\n";
   for (const std::string& scene : r.raw.scenes()) {
     out += "- scene " + code(scene);
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& x) { return x.text("scene") == scene; });
+    std::set<std::string_view> lines;
+    const Row* row = nullptr;
+    for (const Row& x : rows) {
+      if (scene_family(x.text("scene")) != scene) continue;
+      if (row == nullptr) row = &x;
+      if (x.text("scene") != scene) lines.insert(x.text("scene"));
+    }
     if (std::isfinite(row->number("width"))) {
       out += fmt::format(": {:.0f} x {:.0f} pixels", row->number("width"), row->number("height"));
     }
+    if (!lines.empty()) out += fmt::format(", {} random edges", lines.size());
     out += "\n";
   }
   out += "- patterns: " + list(r.raw.patterns()) + "\n";
@@ -109,8 +119,31 @@ void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
   out += "\n\n";
 }
 
+// What a study of random edges is for: their rates side by side.
+void add_contrast(std::string& out, const Summary& summary, const Report& r) {
+  const std::string text = slope_contrast(summary, "`");
+  if (text.empty()) return;
+  out += text;
+  const std::vector<std::string> families = line_families(summary);
+  for (const Reconstruction& kernel : r.slopes.kernels()) {
+    out += "| slope, " + code(kernel.label()) + " |";
+    for (const std::string& family : families) out += " " + code(family) + " |";
+    out += "\n|:--|";
+    for (std::size_t i = 0; i < families.size(); ++i) out += ":--|";
+    out += "\n";
+    for (const std::string& pattern : r.slopes.patterns()) {
+      out += "| " + code(pattern) + " |";
+      for (const std::string& family : families) {
+        out += " " + slope_text(r.slopes.first(family, pattern, kernel)) + " |";
+      }
+      out += "\n";
+    }
+    out += "\n";
+  }
+}
+
 // Patterns by their error at the largest sample count, best first; those without a value are not ranked.
-std::vector<const Row*> ranked(const Report& r, const std::string& scene, const Kernel& kernel) {
+std::vector<const Row*> ranked(const Report& r, const std::string& scene, const Reconstruction& kernel) {
   std::vector<const Row*> order;
   for (const std::string& pattern : r.cases.patterns()) {
     const Row* row = r.cases.first(scene, pattern, kernel, r.largest_spp);
@@ -133,9 +166,9 @@ void add_ranking(std::string& out, const Report& r) {
       "interval meets that of the best.\n\n";
   for (const std::string& scene : r.cases.scenes()) {
     out += "### " + code(scene) + "\n\n";
-    std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>> lines;
+    std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (std::size_t rank = 0; rank < r.cases.patterns().size(); ++rank) {
-      lines.emplace_back(std::to_string(rank + 1), [&r, &scene, rank](const Kernel& kernel) -> std::string {
+      lines.emplace_back(std::to_string(rank + 1), [&r, &scene, rank](const Reconstruction& kernel) -> std::string {
         const auto order = ranked(r, scene, kernel);
         if (rank >= order.size()) return kNone;
         const Row &row = *order[rank], &best = *order[0];
@@ -148,19 +181,21 @@ void add_ranking(std::string& out, const Report& r) {
 }
 
 // The worst pixel of all trials at the largest sample count.
-std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern, const Kernel& kernel) {
+std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern, const Reconstruction& kernel) {
   const Row* worst = nullptr;
   for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
     const double size = row->number("max_abs_active");
     if (std::isfinite(size) && (worst == nullptr || size > worst->number("max_abs_active"))) worst = row;
   }
   if (worst == nullptr || !std::isfinite(worst->number("max_x_active"))) return kNone;
-  return fmt::format("({:.0f}, {:.0f}): got {:.6f}, exact {:.6f}", worst->number("max_x_active"),
-                     worst->number("max_y_active"), worst->number("max_got_active"), worst->number("max_want_active"));
+  const std::string line = worst->text("scene") == scene ? "" : " of " + code(worst->text("scene"));
+  return fmt::format("({:.0f}, {:.0f}){}: got {:.6f}, exact {:.6f}", worst->number("max_x_active"),
+                     worst->number("max_y_active"), line, worst->number("max_got_active"),
+                     worst->number("max_want_active"));
 }
 
 // The image of the first trial that has one, at the largest sample count.
-std::string image_text(const Report& r, const std::string& scene, const std::string& pattern, const Kernel& kernel,
+std::string image_text(const Report& r, const std::string& scene, const std::string& pattern, const Reconstruction& kernel,
                        const char* column, const char* what) {
   for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
     if (!row->text(column).empty()) return fmt::format("![{}]({})", what, row->text(column));
@@ -172,24 +207,24 @@ void add_pattern(std::string& out, const Report& r, const std::string& pattern) 
   out += "## " + code(pattern) + "\n\n";
   for (const std::string& scene : r.cases.scenes()) {
     const auto& kernels = r.cases.kernels();
-    const bool any = std::any_of(kernels.begin(), kernels.end(), [&](const Kernel& k) {
+    const bool any = std::any_of(kernels.begin(), kernels.end(), [&](const Reconstruction& k) {
       return std::any_of(r.cases.spp().begin(), r.cases.spp().end(),
                          [&](std::int64_t spp) { return r.cases.first(scene, pattern, k, spp) != nullptr; });
     });
     if (!any) continue;
     out += "### " + code(pattern) + " on " + code(scene) + "\n\n";
-    std::vector<std::pair<std::string, std::function<std::string(const Kernel&)>>> lines;
+    std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (const std::int64_t spp : r.cases.spp()) {
       lines.emplace_back(std::to_string(spp),
-                         [&, spp](const Kernel& k) { return error_text(r.cases.first(scene, pattern, k, spp)); });
+                         [&, spp](const Reconstruction& k) { return error_text(r.cases.first(scene, pattern, k, spp)); });
     }
-    lines.emplace_back("slope", [&](const Kernel& k) { return slope_text(r.slopes.first(scene, pattern, k)); });
-    lines.emplace_back("worst pixel", [&](const Kernel& k) { return worst_text(r, scene, pattern, k); });
+    lines.emplace_back("slope", [&](const Reconstruction& k) { return slope_text(r.slopes.first(scene, pattern, k)); });
+    lines.emplace_back("worst pixel", [&](const Reconstruction& k) { return worst_text(r, scene, pattern, k); });
     for (const auto& [column, what] : {std::pair("image_got_png", "image"), std::pair("image_error_png", "error")}) {
-      const auto image = [&r, &scene, &pattern, column = column, what = what](const Kernel& k) {
+      const auto image = [&r, &scene, &pattern, column = column, what = what](const Reconstruction& k) {
         return image_text(r, scene, pattern, k, column, what);
       };
-      if (std::any_of(kernels.begin(), kernels.end(), [&](const Kernel& k) { return image(k) != kNone; })) {
+      if (std::any_of(kernels.begin(), kernels.end(), [&](const Reconstruction& k) { return image(k) != kNone; })) {
         lines.emplace_back(what, image);
       }
     }
@@ -210,6 +245,11 @@ void add_notes(std::string& out, const Summary& summary, const Report& r) {
       "grey is exact, red is too much; the range (99.5% of |error| over active pixels, either side) is "
       "in the file's text chunk `moire:range`.\n",
       r.largest_spp);
+  if (!line_families(summary).empty()) {
+    out +=
+        "- Random edges that one table of the study draws count as one scene. Their errors are pooled over all pixels "
+        "that the edges hit; their intervals are over edges, all pixels and trials of an edge taken together.\n";
+  }
   out += "- `~`: below 10 times the exact values' own error bound; such errors are no points of a slope.\n";
   bool first = true;
   for (const Row& row : summary.slopes) {
@@ -228,6 +268,7 @@ std::string markdown_report(std::string_view study_name, const Table& rows, cons
   const Report report{raw, cases, slopes, cases.spp().empty() ? 0 : cases.spp().back()};
   std::string out = "# " + std::string(study_name) + "\n\n";
   if (rows.empty()) return out + "No rows.\n";
+  add_contrast(out, summary, report);
   if (!summary.rows.empty()) add_ranking(out, report);
   add_what_was_run(out, rows, report);
   for (const std::string& pattern : cases.patterns()) add_pattern(out, report, pattern);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reports/cases.h"
+#include "reports/contrast.h"
 
 namespace moire {
 namespace {
@@ -65,14 +66,30 @@ std::string set_out(Lines& lines, bool bold) {
   return text;
 }
 
+// Lines of at most 110 characters, broken at blanks.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 110;
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kWidth) {
+      const std::size_t blank = text.rfind(' ', begin + kWidth);
+      end = blank != std::string::npos && blank > begin ? blank : std::min(text.find(' ', begin), end);
+    }
+    out += text.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string terminal_tables(const Summary& summary, bool bold) {
   const Cases cases(summary.rows), slopes(summary.slopes);
   const double none = std::nan("");
-  std::string text;
+  std::string text = wrapped(slope_contrast(summary, ""));
   for (const std::string& scene : cases.scenes()) {
-    for (const Kernel& kernel : cases.kernels()) {
+    for (const Reconstruction& kernel : cases.kernels()) {
       Lines lines;
       lines.push_back({{"pattern", none}});
       for (const std::int64_t spp : cases.spp()) lines[0].push_back({std::to_string(spp), none});

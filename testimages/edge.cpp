@@ -57,9 +57,9 @@ class Edge {
                 std::span<std::uint8_t> inside) const noexcept {
     const std::size_t n = x.size() / run.size();
     for (std::size_t p = 0; p < run.size(); ++p) {
-      const double c = offset(run[p], 0);
+      const auto [c, far] = offset(run[p], 0);
       // Below 3 u (|nx| + |ny|) + 2 u |s| for the sum and u |c| for the rounded offset; |s| <= |nx| + |ny| + |c|.
-      const double doubt = 8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c));
+      const double doubt = 8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c)) + far;
       bool doubtful = false;
       const std::size_t end = (p + 1) * n;
       for (std::size_t i = p * n; i < end; ++i) {
@@ -75,18 +75,19 @@ class Edge {
   }
 
   Cover cover(Pixel origin, Rect r) const noexcept {
-    const double c = offset(origin, 0);
+    const auto [c, far] = offset(origin, 0);
     const double low = n_.x * (n_.x > 0 ? r.lo.x : r.hi.x) + n_.y * (n_.y > 0 ? r.lo.y : r.hi.y) - c;
     const double high = n_.x * (n_.x > 0 ? r.hi.x : r.lo.x) + n_.y * (n_.y > 0 ? r.hi.y : r.lo.y) - c;
     const double doubt = 8 * kUnit * (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
-                                      std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c));
+                                      std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c)) + far;
     if (low > doubt) return Cover::all;
     if (high < -doubt) return Cover::none;
     return Cover::partial;
   }
 
   void boundary(Pixel origin, double half_width, Boundary& out) const {
-    const HalfPlane inside{n_.x, n_.y, -offset(origin, 0.5)};
+    const auto [c, far] = offset(origin, 0.5);
+    const HalfPlane inside{n_.x, n_.y, -c};
     Polygon clipped;
     clip(square(half_width), inside, clipped);
     for (std::size_t i = 0; i < clipped.size(); ++i) {
@@ -96,7 +97,7 @@ class Edge {
     // the normal plus 4 u of the window (polygon.h). The edge is at most 2 sqrt(2) half widths long here.
     const double size = std::hypot(n_.x, n_.y);
     const double distance =
-        8 * kUnit * ((std::fabs(n_.x) + std::fabs(n_.y)) * half_width + std::fabs(inside.c)) / size +
+        (8 * kUnit * ((std::fabs(n_.x) + std::fabs(n_.y)) * half_width + std::fabs(c)) + 2 * far) / size +
         4 * kUnit * half_width;
     out.area_error += 2 * distance * 2.83 * half_width;
   }
@@ -106,11 +107,15 @@ class Edge {
   }
 
  private:
-  // n . (through - origin - (shift, shift)), rounded once from about 100 bits.
-  double offset(Pixel origin, double shift) const noexcept {
+  // n . (through - origin - (shift, shift)), rounded, and what double-double may have lost before: it has 100 bits of the
+  // products, which is nothing unless pixel and edge are far from each other's origin along the edge.
+  struct Offset {
+    double value, error;
+  };
+  Offset offset(Pixel origin, double shift) const noexcept {
     const Dd x = Dd(through_.x) - dd_from_integer(origin.x) - Dd(shift);
     const Dd y = Dd(through_.y) - dd_from_integer(origin.y) - Dd(shift);
-    return (Dd(n_.x) * x + Dd(n_.y) * y).value();
+    return {(Dd(n_.x) * x + Dd(n_.y) * y).value(), 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi))};
   }
 
   // The sign of n . (origin + p - through), exactly.

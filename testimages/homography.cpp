@@ -61,7 +61,9 @@ void require_invertible(const Matrix3& h, const std::string& place) {
 LocalHomography localize(const Matrix3& h, Pixel origin, double shift) {
   const Dd x = dd_from_integer(origin.x) + Dd(shift), y = dd_from_integer(origin.y) + Dd(shift);
   const auto row = [&](std::size_t i) {
-    return LocalHomography::Row{h[i], h[i + 1], Dd(h[i]) * x + Dd(h[i + 1]) * y + Dd(h[i + 2])};
+    // Two products and two sums in double-double, and x and y themselves: 16 2^-106 of the terms.
+    const double terms = std::fabs(h[i] * x.hi) + std::fabs(h[i + 1] * y.hi) + std::fabs(h[i + 2]);
+    return LocalHomography::Row{h[i], h[i + 1], Dd(h[i]) * x + Dd(h[i + 1]) * y + Dd(h[i + 2]), 0x1p-102 * terms};
   };
   return {row(0), row(3), row(6)};
 }

@@ -22,10 +22,11 @@ void require_invertible(const Matrix3& h, const std::string& place);
 // The same homography with coordinates counted from a pixel's corner (shift 0) or centre (shift 0.5). The linear parts
 // are exact; the constants come from double-double.
 struct LocalHomography {
-  // Rows U, V, W: a x + b y + c.
+  // Rows U, V, W: a x + b y + c; c is right to c_error, also where its terms cancel.
   struct Row {
     double a, b;
     Dd c;
+    double c_error = 0;
   } u, v, w;
 };
 LocalHomography localize(const Matrix3& h, Pixel origin, double shift);

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,10 +33,12 @@ concept TestImageType = std::constructible_from<S, const Args&, Grid> &&
              std::span<std::uint8_t> inside, Rect r, double half_width, Boundary& out) {
   // Points relative to the upper left corners of a run of pixels, x.size() / run.size() points each, pixel-major.
   // inside[i] = 1 or 0. The answer is the exact one for the stored doubles: doubtful signs are settled exactly.
-  { s.contains(run, x, y, inside) } noexcept;
+  { s.contains(run, x, y, inside) }
+  noexcept;
   // The closed rectangle r, relative to the upper left corner of pixel `origin`. May say partial when unsure, never
   // the reverse: none and all are promises about every point of r, its sides included.
-  { s.cover(origin, r) } noexcept -> std::same_as<Cover>;
+  { s.cover(origin, r) }
+  noexcept->std::same_as<Cover>;
   // Appends the closed boundary of any set that equals the scene inside the window: the square of that half width
   // around the CENTRE of pixel `origin`, relative to that centre.
   s.boundary(origin, half_width, out);
@@ -46,7 +49,20 @@ concept TestImageType = std::constructible_from<S, const Args&, Grid> &&
 // closed rectangle r, relative to the upper left corner of pixel `origin`, meets it.
 template <class S>
 concept HasHorizon = requires(const S& s, Pixel origin, Rect r) {
-  { s.meets_horizon(origin, r) } noexcept -> std::same_as<bool>;
+  { s.meets_horizon(origin, r) }
+  noexcept->std::same_as<bool>;
+};
+
+// The area of a scene inside a window, square pixels, and a guaranteed bound on its error.
+struct BoxIntegral {
+  double value = 0, bound = 0;
+};
+
+// A scene may know the integral over a box, the window around the CENTRE of pixel `origin` of that half width, in a way
+// that needs no boundary. No answer where boundary() serves better.
+template <class S>
+concept HasBoxIntegral = requires(const S& s, Pixel origin, double half_width) {
+  { s.box_integral(origin, half_width) } -> std::same_as<std::optional<BoxIntegral>>;
 };
 
 // One constant record per kind of scene.
@@ -59,7 +75,8 @@ struct TestImageInfo {
   Cover (*cover)(const void*, Pixel, Rect) noexcept;
   void (*boundary)(const void*, Pixel, double, Boundary&);
   StoredDoubles (*stored)(const void*);
-  bool (*meets_horizon)(const void*, Pixel, Rect) noexcept;  // null: has none
+  bool (*meets_horizon)(const void*, Pixel, Rect) noexcept;                // null: has none
+  std::optional<BoxIntegral> (*box_integral)(const void*, Pixel, double);  // null: has none
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -92,6 +109,10 @@ class TestImage {
   bool meets_horizon(Pixel origin, Rect r) const noexcept {
     return info_->meets_horizon != nullptr && info_->meets_horizon(self_.get(), origin, r);
   }
+  std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const {
+    if (info_->box_integral == nullptr) return std::nullopt;
+    return info_->box_integral(self_.get(), origin, half_width);
+  }
 
  private:
   const TestImageInfo* info_;
@@ -114,16 +135,29 @@ constexpr auto horizon_of() -> bool (*)(const void*, Pixel, Rect) noexcept {
   }
 }
 
+template <class S>
+constexpr auto box_integral_of() -> std::optional<BoxIntegral> (*)(const void*, Pixel, double) {
+  if constexpr (HasBoxIntegral<S>) {
+    return [](const void* p, Pixel o, double h) { return static_cast<const S*>(p)->box_integral(o, h); };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
-  return {t.name, t.title, t.cite, t.params,
+  return {t.name,
+          t.title,
+          t.cite,
+          t.params,
           [](const Args& a, Grid g) -> std::shared_ptr<const void> { return std::make_shared<const S>(a, g); },
           [](const void* p, std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
              std::span<std::uint8_t> in) noexcept { static_cast<const S*>(p)->contains(run, x, y, in); },
           [](const void* p, Pixel o, Rect r) noexcept { return static_cast<const S*>(p)->cover(o, r); },
           [](const void* p, Pixel o, double h, Boundary& out) { static_cast<const S*>(p)->boundary(o, h, out); },
           [](const void* p) { return static_cast<const S*>(p)->stored(); },
-          horizon_of<S>()};
+          horizon_of<S>(),
+          box_integral_of<S>()};
 }
 
 }  // namespace moire

@@ -40,6 +40,11 @@ inline TestImage disk(Vec2 center, double radius, Grid grid = {64, 64}) {
   return {find_testimage("disk", ""), {{"center", list({center.x, center.y})}, {"radius", one(radius)}}, grid, "test"};
 }
 
+// Disjoint disks, x, y, radius of each.
+inline TestImage disks(std::vector<double> circles, Grid grid = {64, 64}) {
+  return {find_testimage("disks", ""), {{"disks", rows(std::move(circles), 3)}}, grid, "test"};
+}
+
 // `homography` row-major, pixels to plane; `extent` u0, u1, v0, v1.
 inline TestImage board(std::vector<double> homography, std::vector<double> extent, Grid grid = {64, 64}) {
   return {find_testimage("checkerboard", ""),
@@ -66,6 +71,22 @@ inline TestImage board(const Camera& c, std::vector<double> extent, Grid grid = 
            {"extent", list(std::move(extent))}},
           grid,
           "test"};
+}
+
+// The same cameras over the whole plane, to the horizon.
+inline TestImage plane(const Camera& c, Grid grid = {64, 64}) {
+  return {find_testimage("checkerboard", ""),
+          {{"camera.focal", one(c.focal)},
+           {"camera.principal", list({c.principal.x, c.principal.y})},
+           {"camera.height", one(c.height)},
+           {"camera.pitch", one(c.pitch)},
+           {"camera.yaw", one(c.yaw)},
+           {"camera.roll", one(c.roll)}},
+          grid,
+          "test"};
+}
+inline TestImage plane(std::vector<double> homography, Grid grid = {64, 64}) {
+  return {find_testimage("checkerboard", ""), {{"homography", rows(std::move(homography), 3)}}, grid, "test"};
 }
 
 // The camera's homography by the contract of scene files, in plain double arithmetic: row-major, pixels to plane.

@@ -141,6 +141,7 @@ Words run_words(CLI::App& app) {
   w.positional("STUDY", "a study file (TOML), or the name of a built-in study");
   w.option("-o", "DIR", "folder of the results; made if it is not there");
   w.option("--threads", "N", "threads, 1 to 1024; default: as many as there are cores");
+  w.flag("--resume", "go on with a run that was stopped: cases that are in DIR already are kept");
   w.flag("--dry-run", "print the cases, one a line, and stop");
   return w;
 }
@@ -148,6 +149,7 @@ Words run_words(CLI::App& app) {
 Command run_options(const Words& w) {
   RunOptions options;
   options.study = w.required("STUDY");
+  options.resume = w.is_set("--resume");
   options.dry_run = w.is_set("--dry-run");
   options.folder = options.dry_run ? w.text("-o") : w.required("-o");
   if (w.has("--threads")) options.threads = static_cast<int>(w.integer("--threads", 1, kMaxThreads));

@@ -24,6 +24,7 @@ struct RunOptions {
   std::string study;   // a file, or the name of a built-in study
   std::string folder;  // of the results
   int threads = 0;     // 0: as many as there are cores
+  bool resume = false;
   bool dry_run = false;
 };
 

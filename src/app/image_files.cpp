@@ -2,6 +2,8 @@
 #include "app/image_files.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <initializer_list>
 #include <vector>
 
 #include "app/definition.h"
@@ -45,9 +47,8 @@ std::vector<float> dense_exact(const Truth& truth) {
 
 std::vector<float> dense_got(const Truth& truth, const CaseResult& result) {
   std::vector<float> image = flat_image(truth.rows, false);
-  for_each_rendered(truth.rows, result.got, [&](int x, int y, Cover, double value) {
-    image[pixel_index(truth.rows, x, y)] = to_float(value);
-  });
+  for_each_rendered(truth.rows, result.got,
+                    [&](int x, int y, Cover, double value) { image[pixel_index(truth.rows, x, y)] = to_float(value); });
   return image;
 }
 
@@ -84,12 +85,16 @@ std::vector<Attribute> case_attributes(const char* kind, const Study& study, con
           {"moire:params", params_json(&pattern, filter)}};
 }
 
+bool all_there(const std::string& stem, std::initializer_list<const char*> endings) {
+  return std::all_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return std::filesystem::exists(stem + ending); });
+}
+
 }  // namespace
 
 void write_exact_exr(const std::string& path, const Study& study, std::uint32_t scene, std::uint32_t filter,
                      const Truth& truth) {
-  write_exr(path, truth.rows.grid(), dense_exact(truth),
-            exact_attributes(study, scene, filter));
+  write_exr(path, truth.rows.grid(), dense_exact(truth), exact_attributes(study, scene, filter));
 }
 
 void write_got_exr(const std::string& path, const Study& study, const Case& c, const Truth& truth,
@@ -119,6 +124,14 @@ void write_case_images(const std::string& folder, const Study& study, const Case
   write_exr(stem + ".error.exr", grid, error, case_attributes("error", study, c));
   write_png(stem + ".got.png", reconstruction_preview(grid, got));
   write_png(stem + ".error.png", error_preview(grid, error, result.active.p995));
+}
+
+bool has_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter) {
+  return all_there(folder + "/" + exact_stem(study, scene, filter), {".exact.exr", ".exact.png"});
+}
+
+bool has_case_images(const std::string& folder, const Study& study, const Case& c) {
+  return all_there(folder + "/" + image_stem(study, c), {".got.exr", ".error.exr", ".got.png", ".error.png"});
 }
 
 }  // namespace moire

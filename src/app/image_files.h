@@ -26,4 +26,8 @@ void write_exact_images(const std::string& folder, const Study& study, std::uint
 void write_case_images(const std::string& folder, const Study& study, const Case& c, const Truth& truth,
                        const CaseResult& result);
 
+// Whether those files are there. They appear whole, so that one that is there is finished.
+bool has_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter);
+bool has_case_images(const std::string& folder, const Study& study, const Case& c);
+
 }  // namespace moire

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include "core/error.h"
 
@@ -32,7 +33,8 @@ void check_image_path(const std::string& option, const std::string& path) {
   if (!path.ends_with(".exr")) throw Error(option, "\"" + path + "\" is no EXR file; give a name that ends in .exr");
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
-  if (std::filesystem::is_directory(path)) throw Error(path, "cannot be written: it is a folder", Exit::io);
+  std::error_code none;  // what cannot be asked about is no folder; writing will say what is wrong
+  if (std::filesystem::is_directory(path, none)) throw Error(path, "cannot be written: it is a folder", Exit::io);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     throw Error(path, "cannot be written: folder " + folder.string() + ": " + std::strerror(errno), Exit::io);
   }

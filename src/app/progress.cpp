@@ -15,22 +15,21 @@ constexpr const char* kClearLine = "\r\x1b[K";
 
 }  // namespace
 
-Progress::Progress(std::size_t cases)
-    : cases_(cases), shown_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_ - kRefresh) {}
+Progress::Progress() : shown_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_ - kRefresh) {}
 
 Progress::~Progress() {
-  if (shown_ && done_ > 0) std::fputs(kClearLine, stderr);
+  if (drawn_) std::fputs(kClearLine, stderr);
 }
 
-void Progress::step(double share) {
-  ++done_;
+void Progress::step(std::size_t done, std::size_t due, double share) {
   const auto now = Clock::now();
   if (!shown_ || now - last_ < kRefresh) return;
   last_ = now;
+  drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const auto left = static_cast<std::int64_t>(elapsed * (1 - share) / share + 0.5);
-  const std::string line = fmt::format("{}{:3.0f}%  {} of {} cases, {}:{:02} left", kClearLine, 100 * share, done_,
-                                       cases_, left / 60, left % 60);
+  const std::string line = fmt::format("{}{:3.0f}%  {} of {} cases, {}:{:02} left", kClearLine, 100 * share, done, due,
+                                       left / 60, left % 60);
   std::fputs(line.c_str(), stderr);
 }
 

@@ -8,18 +8,17 @@ namespace moire {
 
 class Progress {
  public:
-  explicit Progress(std::size_t cases);
+  Progress();
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // One more case is finished; `share` of the work is done, in (0, 1].
-  void step(double share);
+  // `done` of `due` cases are finished; `share` of the work is done, in (0, 1].
+  void step(std::size_t done, std::size_t due, double share);
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::size_t cases_, done_ = 0;
-  bool shown_;
+  bool shown_, drawn_ = false;
   Clock::time_point start_, last_;
 };
 

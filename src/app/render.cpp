@@ -61,9 +61,13 @@ std::string row_text(const Row& row) {
 Exit execute(const RenderOptions& options) {
   check_image_path("-o", options.out);
   check_image_path("--error", options.error);
+  if (!options.out.empty() && options.out == options.error) {
+    throw Error("--error", "\"" + options.error + "\" is the file of -o, too; give two names");
+  }
   const Study study = study_of(options);
   // An exhaustive image is dense in memory, too.
   if (!options.out.empty() || !options.error.empty() || options.exhaustive) check_image_size(study.scenes[0], "SCENE");
+  require_renderable(study.scenes[0].image.grid(), study.filters[0], study.spp[0], "SCENE");
   Case c;
   c.trial = options.trial;
   const auto start = std::chrono::steady_clock::now();

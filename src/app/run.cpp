@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/folder_lock.h"
 #include "app/image_files.h"
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/progress.h"
+#include "app/resume.h"
 #include "app/studies.h"
 #include "core/parallel.h"
 #include "reports/csv.h"
@@ -41,6 +47,29 @@ void write_reports(const std::string& folder, const Study& study, const Table& r
   print("report: " + report + "\n");
 }
 
+// What happened to an earlier run's results, for a person.
+void say(const std::string& path, const std::string& what) {
+  std::fputs(fmt::format("note: {}: {}\n", path, what).c_str(), stderr);
+}
+
+// The results that are to go on, if there are any.
+Earlier take_up(const std::string& path, const std::string& header, const Study& study,
+                const std::vector<Case>& cases) {
+  Earlier earlier = find_earlier(path, header, study, cases);
+  if (!earlier.file.cut.empty()) {
+    say(path, fmt::format("the last line was cut after {} bytes, and is left out", earlier.file.cut.size()));
+  }
+  return earlier;
+}
+
+// What a new run will not write at once must not stand beside its results as if it were theirs.
+void remove_reports(const std::string& folder) {
+  for (const char* name : {"/results.csv", "/summary.csv", "/report.md"}) {
+    std::error_code ignored;  // a file that cannot be removed cannot be written either, which is told then
+    std::filesystem::remove(folder + name, ignored);
+  }
+}
+
 }  // namespace
 
 Exit execute(const RunOptions& options) {
@@ -53,14 +82,22 @@ Exit execute(const RunOptions& options) {
   const ThreadLimit limit(options.threads);
   // Whatever is wrong with the folder shows before the work begins.
   make_folder(options.folder);
+  const FolderLock lock(options.folder);
   if (study.images != Images::none) make_folder(options.folder + "/images");
   const std::string path = options.folder + "/results.jsonl";
-  JsonLines results(path, json_header(tool(), host(), {study.name, study.text}));
+  const std::string header = json_header(tool(), host(), {study.name, study.text});
+  Earlier earlier;
+  if (options.resume) earlier = take_up(path, header, study, cases);
+  const bool goes_on = !earlier.file.header.empty();
+  const bool replaces = !options.resume && std::filesystem::is_regular_file(path);
+  JsonLines results = goes_on ? JsonLines(path, earlier.file) : JsonLines(path, header);
+  if (!goes_on) remove_reports(options.folder);
+  if (replaces) say(path, "earlier results are replaced; with --resume they would have been kept and gone on with");
 
   watch_interrupts();
   Results outcome;
   {
-    Progress progress(cases.size());
+    Progress progress;
     Observer observer;
     observer.row = [&](const Row& row) { results.append(row); };
     observer.exact_image = [&](std::uint32_t scene, std::uint32_t filter, const Truth& truth) {
@@ -69,16 +106,24 @@ Exit execute(const RunOptions& options) {
     observer.case_image = [&](const Case& c, const Truth& truth, const CaseResult& result) {
       write_case_images(options.folder, study, c, truth, result);
     };
-    observer.progress = [&](double share) { progress.step(share); };
+    if (goes_on) {
+      observer.has_exact_image = [&](std::uint32_t scene, std::uint32_t filter) {
+        return has_exact_images(options.folder, study, scene, filter);
+      };
+      observer.has_case_image = [&](const Case& c) { return has_case_images(options.folder, study, c); };
+    }
+    observer.progress = [&](std::size_t done, std::size_t due, double share) { progress.step(done, due, share); };
     observer.stop = interrupted;
-    outcome = run(study, cases, observer);
+    outcome = run(study, cases, observer, std::move(earlier.rows));
   }
   results.finish(outcome.rows);
   if (!outcome.complete) {
-    throw Error(path,
-                fmt::format("interrupted; the {} of {} rows that were finished are kept here", outcome.rows.size(),
-                            cases.size()),
-                Exit::interrupted);
+    throw Error(
+        path,
+        fmt::format("interrupted; the {} of {} rows that were finished are kept here; this goes on: moire run {} "
+                    "-o {} --resume",
+                    outcome.rows.size(), cases.size(), options.study, options.folder),
+        Exit::interrupted);
   }
   write_reports(options.folder, study, outcome.rows);
   return Exit::ok;

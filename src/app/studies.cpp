@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
@@ -33,7 +34,8 @@ Study load_study(const std::string& word) {
     names.push_back(study.name);
   }
   const std::filesystem::path path(word);
-  if (word.find('/') == std::string::npos && path.extension() != ".toml" && !std::filesystem::exists(path)) {
+  std::error_code none;  // a name that is too long does not exist
+  if (word.find('/') == std::string::npos && path.extension() != ".toml" && !std::filesystem::exists(path, none)) {
     throw Error("STUDY", unknown_name("built-in study", word, names) + "; or give a file, NAME.toml");
   }
   return parse_study(read_text(word), word, path.stem().string());

@@ -97,6 +97,7 @@ Args::Args(std::string_view owner, std::span<const Param> params, const Given& g
   for (const Param& p : params) {
     const auto it = std::find_if(given.begin(), given.end(), [&](const auto& g) { return g.first == p.name; });
     if (it != given.end()) {
+      given_.emplace_back(p.name);
       values_.emplace_back(p.name, checked(owner, p, it->second, place_of(it->second)));
     } else if (p.required) {
       throw Error(std::string(place), std::string(owner) + " needs \"" + std::string(p.name) + "\": " +
@@ -120,6 +121,8 @@ const Value* Args::find(std::string_view name) const {
   }
   return nullptr;
 }
+
+bool Args::given(std::string_view name) const { return std::find(given_.begin(), given_.end(), name) != given_.end(); }
 
 double Args::number(std::string_view name) const { return require(*this, name).numbers.at(0); }
 std::int64_t Args::integer(std::string_view name) const { return static_cast<std::int64_t>(number(name)); }

@@ -62,11 +62,14 @@ class Args {
   double number(std::string_view name) const;            // number or integer
   std::int64_t integer(std::string_view name) const;     // integer
   std::string_view text(std::string_view name) const;    // choice or path
-  const Value* find(std::string_view name) const;        // null when not given
+  // The value, or the default of a number, integer or choice; null for others that were not given.
+  const Value* find(std::string_view name) const;
+  bool given(std::string_view name) const;
   const std::string& place() const { return place_; }    // where the plug-in was named
 
  private:
   Given values_;
+  std::vector<std::string> given_;
   std::string place_;
 };
 

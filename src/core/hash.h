@@ -35,6 +35,7 @@ enum class Axis : std::uint32_t {
   dart,      // candidates of dart-throwing inside a pixel
   bank,      // candidates of set s of a bank; the pixel is (s, 0)
   set,       // candidates of the one set that belongs to no pixel
+  line,      // random lines of a study's scenes; the pixel is (0, 0)
 };
 
 // 128 bits that stand for (seed, trial, pixel). Two pixels of one draw with different coordinates modulo 2^32 never

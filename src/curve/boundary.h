@@ -18,8 +18,8 @@ struct Segment {
 
 // A whole circle, walked from +x towards +y. Its centre is center + center_rest, the second the rounding error of the
 // first: a tiny circle's distance to a pixel's side needs both. Far from the origin the power of the origin,
-// radius^2 - |centre|^2, cannot be had from the rounded centre; it is kept beside it, right up to 2^-50 relative or
-// 2^-90 radius^2.
+// radius^2 - |centre|^2, cannot be had from the rounded centre; it is kept beside it, right up to 2^-53 relative plus
+// 2^-98 radius^2.
 struct Circle {
   Vec2 center, center_rest;
   double radius = 0;

@@ -118,6 +118,10 @@ void BoundaryIntegral::add_segment_piece(const Segment& s, double from, double t
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   // Classified by the midpoint: the ends lie on knots only up to rounding.
   const int px = kernel_.piece_of(s.a.x + mid * dx), py = kernel_.piece_of(s.a.y + mid * dy);
+  // A piece as short as rounding may lie on either side of a knot that it begins at.
+  if (std::fabs(half * dy) <= position_error_) {
+    other_ += 2 * std::fabs(s.weight * half * dy) * kernel_.k_max() * kernel_.K_max();
+  }
   if (px < 0 || py < 0 || py >= kernel_.pieces()) return;
   if (px >= kernel_.pieces()) return add_closed_form(s.weight, s.a.y + from * dy, s.a.y + to * dy);
   const Rule rule = gauss_legendre(line_nodes_);
@@ -272,11 +276,22 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   const double run_mid = arc.run(mid), other_mid = arc.other_inside(mid);
   const double x_mid = arc.upright ? other_mid : run_mid, y_mid = arc.upright ? run_mid : other_mid;
-  const int px = kernel_.piece_of(x_mid), py = kernel_.piece_of(y_mid);
+  // Tiny circles can be smaller than an ulp of where they are: their pieces are told apart relative to the centre, as
+  // their cuts were made.
+  const auto piece_of = [&](bool running, double position) {
+    if (!arc.tiny) return kernel_.piece_of(position);
+    const double relative = running ? mid : arc.offset(mid);
+    const double c = running ? arc.c_run : arc.c_other, rest = running ? arc.rest_run : arc.rest_other;
+    int p = -1;
+    for (const double knot : kernel_.knots()) p += (knot - c) - rest <= relative;
+    return p;
+  };
+  const int px = piece_of(!arc.upright, x_mid), py = piece_of(arc.upright, y_mid);
   // Walking order: the circle goes from +x towards +y, so y grows on the right quarter and x shrinks on the lower one.
   const double direction = arc.upright ? arc.side : -arc.side;
   const double radius = arc.circle.radius;
-  const double position = position_error_;
+  // Far circles: the power is right to 2^-98 R^2 and an ulp (boundary.h); the first moves the curve by that over 2 R.
+  const double position = position_error_ + (arc.near ? 0 : 0x1p-98 * radius);
   if (!arc.tiny) {
     if (px < 0) return;
     if (px >= kernel_.pieces()) {
@@ -305,11 +320,12 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
     const double k_bound = kernel_.k_on_ellipse(py, arc.upright ? rho_run : rho_other);
     double K_bound = 0;
     if (arc.tiny) {
-      // |x - centre| is at most R sqrt(1 + e^2) on an upright quarter and e R on the others.
+      // The integral of k from the centre to x runs along the real axis to a knot or to the piece's middle, at most R, and
+      // from there to x inside the disk around other_mid or the ellipse: at most sqrt(2) R + R, |x - centre| <= sqrt(2) R.
       const double slope = px < 0 || px >= kernel_.pieces()
                                ? kernel_.k_max()
                                : std::max(kernel_.k_max(), kernel_.k_on_ellipse(px, arc.upright ? rho_other : rho_run));
-      K_bound = 1.5 * radius * slope;
+      K_bound = 4 * radius * slope;
     } else {
       K_bound = kernel_.K_on_ellipse(px, arc.upright ? rho_other : rho_run);
     }
@@ -356,6 +372,9 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
   } else {
     length_ += length;
     other_ += kUnit * (nodes + 8) * length * kernel_.k_max() * kernel_.K_max();
+    const double farther = position - position_error_;
+    other_ += farther * (length * (kernel_.k_max() * kernel_.k_max() + kernel_.K_max() * kernel_.slope_max()) +
+                         2 * kernel_.K_max() * kernel_.jump_max());
   }
 }
 

@@ -21,6 +21,7 @@ Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel);
 struct Reference {
   std::vector<double> value, bound;
   double max_bound = 0;
+  double rms_bound = 0;  // root of the mean squared bound: what the reference may add to a root mean squared error
 };
 Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows);
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <cmath>
 #include <deque>
+#include <string>
 
 #include "core/error.h"
 #include "core/names.h"
@@ -229,6 +230,21 @@ Estimator find_estimator(std::string_view name, std::string_view place) {
     if (kEstimatorNames[i] == name) return static_cast<Estimator>(i);
   }
   throw Error(std::string(place), unknown_name("estimator", name, kEstimatorNames));
+}
+
+void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::string_view place) {
+  const double width = grid.width + 2.0 * filter.apron(), height = grid.height + 2.0 * filter.apron();
+  const double samples = width * height * static_cast<double>(spp);
+  if (samples > 0x1p53) {
+    throw Error(std::string(place), "an image of " + shortest(samples) + " samples; at most 2^53, so fewer pixels or samples");
+  }
+  // Sums of side x side pixels for each cell, side rows of cells at a time: all of them for an edge along a row.
+  const double side = 2.0 * filter.apron() + 1, bytes = side * side * side * width * sizeof(WeightSum);
+  if (bytes > 0x1p33) {
+    throw Error(std::string(place), "filter \"" + filter.text() + "\" on a row of " + std::to_string(grid.width) +
+                                        " pixels may need " + shortest(std::ceil(bytes * 0x1p-30)) +
+                                        " GiB; at most 8, so a smaller radius or width");
+  }
 }
 
 Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,

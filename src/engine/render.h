@@ -55,8 +55,13 @@ void for_each_rendered(const ActiveRows& rows, const Rendered& rendered, F&& f) 
   }
 }
 
+// Refuses, naming the limit, what no machine here could count or hold: more than 2^53 samples in the image grown by the
+// filter's apron, or more than 8 GiB of sums for the rows of cells that a window spans. `place` is for the message.
+void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::string_view place);
+
 // `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default path
-// are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and filter.radius().
+// are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and filter.radius(),
+// and require_renderable() must have passed.
 Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive = false);
 

@@ -39,15 +39,22 @@ double student95_large(double nu) {
 }
 
 struct Mean {
-  double mean = 0, deviations = 0;  // deviations = sum of (x - mean)^2
+  double mean = 0, deviations = 0;  // deviations = sum of (w (x - mean))^2
 };
 
-Mean mean_of(std::span<const double> x) {
+// Weights of mean 1; without weights each is exactly 1.
+Mean mean_of(std::span<const double> x, std::span<const double> weights = {}) {
+  assert(weights.empty() || weights.size() == x.size());
   const double n = static_cast<double>(x.size());
-  Sum sum, squares;
-  for (const double v : x) sum.add(v);
+  Sum total, sum, squares;
+  for (const double w : weights) total.add(w);
+  const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i] / (total.value() / n); };
+  for (std::size_t i = 0; i < x.size(); ++i) sum.add(weight(i) * x[i]);
   const double mean = sum.value() / n;
-  for (const double v : x) squares.add((v - mean) * (v - mean));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double deviation = weight(i) * (x[i] - mean);
+    squares.add(deviation * deviation);
+  }
   return {mean, squares.value()};
 }
 
@@ -122,11 +129,13 @@ double student_t95(std::int64_t dof) {
   return (lo + hi) / 2;
 }
 
-double rms_over_trials(std::span<const double> mse) { return mse.empty() ? kNan : std::sqrt(mean_of(mse).mean); }
+double rms_over_trials(std::span<const double> mse, std::span<const double> weights) {
+  return mse.empty() ? kNan : std::sqrt(mean_of(mse, weights).mean);
+}
 
-std::optional<Interval> rms_interval(std::span<const double> mse) {
+std::optional<Interval> rms_interval(std::span<const double> mse, std::span<const double> weights) {
   if (mse.size() < 2) return std::nullopt;
-  const Mean m = mean_of(mse);
+  const Mean m = mean_of(mse, weights);
   if (!std::isfinite(m.deviations)) return std::nullopt;
   const double rms = std::sqrt(m.mean);
   if (m.deviations == 0) return Interval{rms, rms};

@@ -19,13 +19,15 @@ struct Interval {
 double student_t95(std::int64_t dof);
 
 // sqrt(mean of mse): trials are averaged before the root, since a mean of roots is biased low. NaN for no trials.
-double rms_over_trials(std::span<const double> mse);
+// `weights`, as many as there are trials, make it a weighted mean, e.g. by pixels; none: all alike.
+double rms_over_trials(std::span<const double> mse, std::span<const double> weights = {});
 
 // Interval of rms_over_trials: log of the mean MSE +- Student's t times its standard error (delta method), so that the
 // ends are positive and the interval is honest for a handful of trials. Fewer than 2 trials, or a value that is not
-// finite: none. All trials alike: both ends are the value.
+// finite: none. All trials alike: both ends are the value. Weights are taken as random as the errors are (the variance
+// of a ratio, W. G. Cochran, "Sampling techniques", 1977, section 6.3).
 inline constexpr std::string_view kRmsMethod = "t-log-mse";
-std::optional<Interval> rms_interval(std::span<const double> mse);
+std::optional<Interval> rms_interval(std::span<const double> mse, std::span<const double> weights = {});
 
 // The errors at one sample count: mse[t] belongs to trial t, the same trials in the same order at every count.
 struct SlopePoint {

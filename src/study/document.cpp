@@ -83,7 +83,42 @@ std::string_view kind_name(Node::Kind kind) {
   return "a value";
 }
 
+namespace {
+
+// toml++ follows a dotted key by recursion: a key of many thousand parts would end the stack. Nothing here needs more
+// than a handful. Dots are counted between characters that no key holds, quoted strings left out.
+void refuse_deep_keys(std::string_view text, std::string_view file) {
+  constexpr int kMaxDots = 64;
+  std::size_t line = 1, line_begin = 0;
+  int dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
+      line_begin = i + 1;
+      dots = 0;
+    } else if (c == '"' || c == '\'') {
+      // To the closing quote on this line; a multi-line string ends its line, which resets the count.
+      const std::size_t end = text.find_first_of(c == '"' ? "\"\n" : "'\n", i + 1);
+      if (end == std::string_view::npos) return;
+      i = text[end] == '\n' ? end - 1 : end;
+    } else if (c == '.') {
+      if (++dots > kMaxDots) {
+        throw Error(fmt::format("{}:{}:{}", file, line, i - line_begin + 1),
+                    fmt::format("a key of more than {} dotted parts; no key here needs more than three", kMaxDots));
+      }
+    } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
+      dots = 0;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    }
+  }
+}
+
+}  // namespace
+
 Node parse_toml(std::string_view text, std::string_view file) {
+  refuse_deep_keys(text, file);
   try {
     return copy(toml::parse(text), file);
   } catch (const toml::parse_error& e) {

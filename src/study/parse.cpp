@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -122,16 +123,19 @@ std::vector<NamedScene> parse_scenes(const Node& root, const std::string& file, 
     throw Error(list->place, fmt::format("scene is {}; write each scene as a table [[scene]]", kind_name(list->kind)));
   }
   std::vector<NamedScene> scenes;
-  std::unordered_set<std::string> names;
+  // A table's scenes may be one family, whose name must be no other table's either.
+  std::unordered_map<std::string, const Node*> table_of;
   for (const Node& table : list->items) {
     if (table.kind != Node::Kind::table) {
       throw Error(table.place, fmt::format("a scene is {}; write it as a table [[scene]]", kind_name(table.kind)));
     }
     for (NamedScene& scene : parse_scene_table(table, file, kMaxScenes - scenes.size(), study_text)) {
       if (scene.name.empty()) throw Error(table.place, "the scene's name is empty; give name = \"NAME\"");
-      if (!names.insert(scene.name).second) {
+      const std::string family(scene_family(scene.name));
+      const auto known = table_of.try_emplace(family, &table).first;
+      if (known->second != &table) {
         throw Error(table.place,
-                    fmt::format("a scene named \"{}\" stands above already; give it another name", scene.name));
+                    fmt::format("a scene named \"{}\" stands above already; give it another name", family));
       }
       scenes.push_back(std::move(scene));
     }

@@ -2,17 +2,15 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "engine/render.h"
 #include "study/file_names.h"
 #include "study/study.h"
 
 namespace moire {
-namespace {
 
 std::uint32_t trials_of(const Study& study, const PatternChoice& pattern) {
   return pattern.varies() ? static_cast<std::uint32_t>(study.trials) : 1;
 }
-
-}  // namespace
 
 std::vector<Case> plan(const Study& study) {
   std::uint64_t rows = 0;
@@ -22,6 +20,11 @@ std::vector<Case> plan(const Study& study) {
     rows += trials_of(study, pattern);
   }
   check_file_names(study);
+  for (const NamedScene& scene : study.scenes) {
+    for (const Filter& filter : study.filters) {
+      for (const int n : study.spp) require_renderable(scene.image.grid(), filter, n, "scene \"" + scene.name + "\"");
+    }
+  }
   // Each factor is compared before it is multiplied, so that nothing overflows.
   for (const std::size_t factor :
        {study.scenes.size(), study.spp.size(), study.filters.size(), study.estimators.size()}) {

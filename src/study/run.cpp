@@ -5,17 +5,21 @@
 #include "study/run.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "measure/statistics.h"
 #include "study/columns.h"
 #include "study/file_names.h"
+#include "study/schedule.h"
 
 namespace moire {
 namespace {
@@ -79,23 +83,49 @@ void set_images(const Study& study, const Case& c, Row& row) {
 // Work of a case in units of samples per pixel; a case of 1 sample costs more than its sample.
 double work_of(const Study& study, const Case& c) { return study.spp[c.spp] + 4.0; }
 
+// As a file of rows holds it: numbers that are not finite are missing.
+bool is_missing(const Cell& cell) {
+  const auto* number = std::get_if<double>(&cell);
+  return std::holds_alternative<std::monostate>(cell) || (number != nullptr && !std::isfinite(*number));
+}
+
+// Throws unless a case that was computed again gave its earlier row, times apart. Bias and variance are there only when
+// all trials are computed.
+void check_again(const Study& study, const Case& c, const Row& earlier, const Row& again) {
+  for (const auto& [name, cell] : again.cells()) {
+    const bool missing = is_missing(cell);
+    if (name.starts_with("time_") || (missing && (name == "bias_sq_active" || name == "variance_active"))) continue;
+    const Cell* known = earlier.find(name);
+    if (known != nullptr && (*known == cell || (missing && is_missing(*known)))) continue;
+    throw Error(describe(study, c),
+                "its \"" + name +
+                    "\" differs from that of its earlier row, now that it was computed again: that row is "
+                    "from another build or was changed; remove the results and start again",
+                Exit::failed);
+  }
+}
+
 // Scenes [first, end) with what their cases share.
 struct Batch {
   std::uint32_t end = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Truth> truths;  // by scene and filter
 };
 
-// Takes scenes from `first` on, at least one, until the batch is full or the run is to stop.
-Batch make_batch(const Study& study, std::uint32_t first, const Observer& observer) {
+// Takes scenes from `first` on, at least one, until the batch is full or the run is to stop. Scenes and filters without
+// a case that is due or an image to make are left out.
+Batch make_batch(const Study& study, std::uint32_t first, const Schedule& schedule, const Observer& observer) {
   Batch batch;
   std::int64_t pixels = 0;
   for (batch.end = first; batch.end < study.scenes.size() && (batch.end == first || pixels < kBatchPixels);
        ++batch.end) {
     for (std::uint32_t filter = 0; filter < study.filters.size(); ++filter) {
+      const bool image = observer.exact_image && study.images != Images::none &&
+                         !(observer.has_exact_image && observer.has_exact_image(batch.end, filter));
+      if (!image && !schedule.needs_truth[batch.end * study.filters.size() + filter]) continue;
       if (observer.stop && observer.stop()) return batch;
       Truth truth = find_truth(study.scenes[batch.end].image, study.filters[filter]);
       pixels += truth.rows.active_pixels();
-      if (observer.exact_image && study.images != Images::none) observer.exact_image(batch.end, filter, truth);
+      if (image) observer.exact_image(batch.end, filter, truth);
       batch.truths.emplace(std::pair(batch.end, filter), std::move(truth));
     }
   }
@@ -169,26 +199,35 @@ CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, s
   if (!truth.horizon.empty()) set_errors(row, "horizon", result.horizon);
   row.set("reference_method", std::string("analytic"));
   row.set("error_bound", truth.exact.max_bound);
-  row.set("reference_limited", reference_limited(result.active.rmse, truth.exact.max_bound));
+  row.set("error_bound_rms", truth.exact.rms_bound);
+  row.set("reference_limited", reference_limited(result.active.rmse, truth.exact.rms_bound));
   row.set("status", std::string("ok"));
   set_images(study, c, row);
   return result;
 }
 
-Results run(const Study& study, const std::vector<Case>& cases, const Observer& observer) {
-  std::vector<Row> rows(cases.size());
-  std::vector<bool> done(cases.size(), false);
+Results run(const Study& study, const std::vector<Case>& cases, const Observer& observer, Table earlier) {
+  assert(earlier.empty() || earlier.size() == cases.size());
+  const Schedule schedule = make_schedule(study, cases, earlier, observer);
+  Table rows = std::move(earlier);
+  rows.resize(cases.size());
   double work = 0, total_work = 0;
-  for (const Case& c : cases) total_work += work_of(study, c);
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (schedule.due[i]) total_work += work_of(study, cases[i]);
+  }
   const auto stopped = [&] { return observer.stop && observer.stop(); };
   Moments moments;
 
   // Cases lie scene by scene, so that a batch of scenes is a stretch of the plan.
-  for (std::size_t first = 0; first < cases.size() && !stopped();) {
-    const Batch batch = make_batch(study, cases[first].scene, observer);
+  std::size_t first = 0;
+  while (first < cases.size() && !stopped()) {
+    const Batch batch = make_batch(study, cases[first].scene, schedule, observer);
+    if (batch.end == cases[first].scene) break;  // stopped before the first scene was ready
     std::vector<std::size_t> order;
-    for (; first < cases.size() && cases[first].scene < batch.end; ++first) order.push_back(first);
-    if (order.empty()) break;
+    for (; first < cases.size() && cases[first].scene < batch.end; ++first) {
+      if (schedule.due[first]) order.push_back(first);
+    }
     const auto run_key = [&](std::size_t i) {
       const Case& c = cases[i];
       return std::tuple(c.pattern, c.spp, c.trial, c.scene, c.filter, c.estimator);
@@ -213,24 +252,25 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
       previous = &c;
       const Truth& truth = batch.truths.at({c.scene, c.filter});
       CaseResult result = run_case(study, c, *pattern, setup_ns, truth);
-      moments.add(c, choice.varies() ? static_cast<std::uint32_t>(study.trials) : 1, result);
-      if (observer.case_image && keeps_images(study, c.trial)) observer.case_image(c, truth, result);
-      if (observer.row) observer.row(result.row);
-      rows[index] = std::move(result.row);
-      done[index] = true;
+      if (schedule.moments[index]) moments.add(c, trials_of(study, choice), result);
+      Row& row = rows[index];
+      if (!row.cells().empty()) check_again(study, c, row, result.row);
+      if (schedule.image[index]) observer.case_image(c, truth, result);
+      if (row.cells().empty()) {
+        row = std::move(result.row);
+        if (observer.row) observer.row(row);
+      }
       work += work_of(study, c);
-      if (observer.progress) observer.progress(work / total_work);
+      ++done;
+      if (observer.progress) observer.progress(done, schedule.due_count, work / total_work);
     }
     moments.clear();
   }
 
   Results results;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (done[i]) {
-      results.rows.push_back(std::move(rows[i]));
-    } else {
-      results.complete = false;
-    }
+  results.complete = first == cases.size() && done == schedule.due_count;
+  for (Row& row : rows) {
+    if (!row.cells().empty()) results.rows.push_back(std::move(row));
   }
   return results;
 }

@@ -12,9 +12,13 @@
 #include "core/args.h"
 #include "core/error.h"
 #include "core/names.h"
+#include "study/random_lines.h"
 
 namespace moire {
 namespace {
+
+constexpr std::string_view kLineMark = ":line=";
+constexpr std::string_view kEdgeKind = "edge";
 
 // A key of a scene with its value, or with its values when it is a range.
 struct Entry {
@@ -77,6 +81,7 @@ double round_to_decimal(double x, double slack) {
 // Appends the entries of a table; sub-tables that are no ranges are flattened once: [camera] focal is "camera.focal".
 void collect(const Node& table, const std::string& prefix, std::size_t limit, std::vector<Entry>& out) {
   for (const Node& node : table.items) {
+    if (node.key == "lines" && prefix.empty()) continue;  // a key of its own kind, see line_scenes()
     Entry entry;
     entry.key = prefix + node.key;
     entry.node = &node;
@@ -96,6 +101,7 @@ void collect(const Node& table, const std::string& prefix, std::size_t limit, st
 
 void refuse_ranges(const Node& table) {
   for (const Node& node : table.items) {
+    if (node.key == "lines") throw Error(node.place, "lines make several scenes; here give through and normal");
     if (is_range(node)) throw Error(node.place, "a range makes several scenes; here give one number");
     if (node.kind == Node::Kind::table) refuse_ranges(node);
   }
@@ -104,6 +110,7 @@ void refuse_ranges(const Node& table) {
 void refuse_unknown_keys(const std::vector<Entry>& entries, const TestImageInfo& info) {
   std::vector<std::string_view> known = {"kind", "name", "width", "height"};
   for (const Param& p : info.params) known.push_back(p.name);
+  if (info.name == kEdgeKind) known.push_back("lines");
   for (const Entry& e : entries) {
     if (std::find(known.begin(), known.end(), e.key) == known.end()) {
       throw Error(e.node->key_place,
@@ -133,9 +140,98 @@ TestImage make_image(const TestImageInfo& info, const Given& given, const Node& 
   return TestImage(info, own, grid, table.place);
 }
 
+struct Lines {
+  LineLaw law = LineLaw::isotropic;
+  std::uint32_t count = 0;
+  std::uint64_t seed = 1;
+};
+
+Lines lines_of(const Node& node, std::size_t limit) {
+  constexpr std::string_view kKeys[] = {"law", "count", "seed"};
+  if (node.kind != Node::Kind::table) {
+    throw Error(node.place, fmt::format("lines is {}; write {{ law = \"isotropic\", count = 256, seed = 1 }}",
+                                        kind_name(node.kind)));
+  }
+  for (const Node& member : node.items) {
+    if (std::find(std::begin(kKeys), std::end(kKeys), member.key) == std::end(kKeys)) {
+      throw Error(member.key_place, "lines: " + unknown_name("key", member.key, kKeys));
+    }
+  }
+  const auto member = [&](std::string_view key) -> const Node& {
+    const Node* found = node.find(key);
+    if (found == nullptr) {
+      throw Error(node.place,
+                  fmt::format("the lines have no \"{}\"; write {{ law = \"isotropic\", count = 256 }}", key));
+    }
+    return *found;
+  };
+  const Node& law = member("law");
+  const auto known = std::find(std::begin(kLineLaws), std::end(kLineLaws), text_of(law, "law"));
+  if (known == std::end(kLineLaws)) throw Error(law.place, unknown_name("law of lines", law.text, kLineLaws));
+  Lines lines;
+  lines.law = static_cast<LineLaw>(known - std::begin(kLineLaws));
+  lines.count = static_cast<std::uint32_t>(integer_of(member("count"), "count", 1, static_cast<std::int64_t>(limit)));
+  if (const Node* seed = node.find("seed")) {
+    lines.seed = static_cast<std::uint64_t>(integer_of(*seed, "seed", 0, std::numeric_limits<std::int64_t>::max()));
+  }
+  return lines;
+}
+
+// The scenes of a table with `lines`; `entries` are its other keys.
+std::vector<NamedScene> line_scenes(const Node& table, const Node& node, const std::vector<Entry>& entries,
+                                    const TestImageInfo& info, const std::string& name, std::size_t limit) {
+  Given given;
+  for (const Entry& e : entries) {
+    if (e.key == "through" || e.key == "normal") {
+      throw Error(e.node->key_place,
+                  fmt::format("\"{}\" stands beside \"lines\", which draws it; give one of them", e.key));
+    }
+    if (!e.values.empty()) {
+      throw Error(e.node->place,
+                  "a range stands beside \"lines\"; give one number, or a table [[scene]] for each value");
+    }
+    given.emplace_back(e.key, e.value);
+  }
+  const Lines lines = lines_of(node, limit);
+  const Grid grid{side_of(given, "width", table), side_of(given, "height", table)};
+  std::vector<NamedScene> scenes;
+  for (std::uint32_t i = 0; i < lines.count; ++i) {
+    const RandomLine line = random_line(lines.law, lines.seed, i, grid);
+    Given drawn = given;
+    for (const auto& [key, vector] : {std::pair("through", line.through), std::pair("normal", line.normal)}) {
+      Value value;
+      value.is_text = false;
+      value.rank = 1;
+      value.numbers = {vector.x, vector.y};
+      value.place = node.place;
+      drawn.emplace_back(key, std::move(value));
+    }
+    scenes.push_back({fmt::format("{}{}{}", name, kLineMark, i), make_image(info, drawn, table)});
+  }
+  return scenes;
+}
+
 std::size_t count_of(const Entry& e) { return std::max<std::size_t>(e.values.size(), 1); }
 
 }  // namespace
+
+std::string_view scene_family(std::string_view scene_name) {
+  const std::size_t mark = scene_name.rfind(kLineMark);
+  if (mark == std::string_view::npos) return scene_name;
+  const std::string_view number = scene_name.substr(mark + kLineMark.size());
+  const bool is_line = !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
+  return is_line ? scene_name.substr(0, mark) : scene_name;
+}
+
+std::int64_t line_number(std::string_view scene_name) {
+  const std::size_t family = scene_family(scene_name).size();
+  std::int64_t number = 0;
+  if (family < scene_name.size()) {
+    const char* const end = scene_name.data() + scene_name.size();
+    std::from_chars(scene_name.data() + family + kLineMark.size(), end, number);
+  }
+  return number;
+}
 
 std::vector<double> range_values(const Node& range, std::size_t limit) {
   for (const Node& member : range.items) {
@@ -187,10 +283,15 @@ std::vector<NamedScene> scenes_of(const Node& table, const std::string& name, st
     throw Error(table.place, fmt::format("the scene has no kind; give kind = \"NAME\", one of {}", join(kinds)));
   }
   const TestImageInfo& info = find_testimage(text_of(*kind, "kind"), kind->place);
+  const Node* lines = table.find("lines");
+  if (lines != nullptr && info.name != kEdgeKind) {
+    throw Error(lines->key_place, fmt::format("random lines are edges; give kind = \"{}\"", kEdgeKind));
+  }
   std::vector<Entry> entries;
   collect(table, "", limit, entries);
   refuse_unknown_keys(entries, info);
   std::erase_if(entries, [](const Entry& e) { return e.key == "kind" || e.key == "name"; });
+  if (lines != nullptr) return line_scenes(table, *lines, entries, info, name, limit);
 
   std::size_t total = 1;
   for (const Entry& e : entries) {

@@ -50,6 +50,9 @@ struct Study {
 // default name. Throws Error with file:line:column.
 Study parse_study(std::string_view text, const std::string& file, const std::string& stem);
 
+// Trials that are run with the pattern: the study's, or one where its points do not vary.
+std::uint32_t trials_of(const Study& study, const PatternChoice& pattern);
+
 // One image to compute: indices into the study's lists, and the trial.
 struct Case {
   std::uint32_t scene = 0, pattern = 0, spp = 0, filter = 0, estimator = 0, trial = 0;

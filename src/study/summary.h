@@ -6,24 +6,30 @@
 
 namespace moire {
 
+// Scenes that are random lines of one table (scene_family in scene_file.h) are summarised as one, under the family's
+// name: errors are pooled over all pixels that the lines hit, that is, the lines' MSE are weighted by their pixels, so
+// that every pixel sees the law of lines itself. The lines are then what is independent: intervals and slopes take
+// whole lines, all trials of a line together, and their methods end in "-by-line".
 struct Summary {
   // One row per scene, pattern, spp, filter and estimator, in the order of their first raw rows:
   //   n_trials; rmse_active, rmse_active_lo, rmse_active_hi, ci_method; the same for rmse_all (MSE averaged over
   //   trials, then the root; 95%); max_abs_active (over trials); bias_active (mean over trials); bias_sq_active and
-  //   variance_active; pixels_total, pixels_active (of one image); samples_total, samples_evaluated, fallbacks (sums
-  //   over trials); error_bound (largest); reference_limited; and of the row's series slope, slope_lo, slope_hi,
-  //   slope_ci_method, slope_spp_min, slope_spp_max, slope_left_out.
+  //   variance_active; pixels_total, pixels_active (of one image; of a family, of one image per line); samples_total,
+  //   samples_evaluated, fallbacks (sums over trials); error_bound (largest); reference_limited; n_scenes (lines of a
+  //   family, else 1); and of the row's series slope, slope_lo, slope_hi, slope_ci_method, slope_spp_min,
+  //   slope_spp_max, slope_left_out.
   Table rows;
   // One row per scene, pattern, filter and estimator with a rate: slope of log rmse_active against log spp, slope_lo,
-  //   slope_hi, ci_method, n_trials, spp_min, spp_max, n_spp (the points used) and left_out (sample counts that are
-  //   not used, and why; empty when all are).
+  //   slope_hi, ci_method, n_trials, spp_min, spp_max, n_spp (the points used), left_out (sample counts that are
+  //   not used, and why; empty when all are) and n_scenes.
   Table slopes;
 };
 
 // Rows without rmse_active, or whose `status` is neither missing nor "ok", count nowhere. bias_sq_active and
-// variance_active, which need every pixel of every trial, are taken from the case's last row that has them. A case with
-// a reference_limited row is summarised and flagged, but is no point of a slope; nor is one with other trials than the
-// most complete case of its series, or with no error at all.
+// variance_active, which need every pixel of every trial, are taken from the case's last row that has them (of a
+// family: their mean by pixels, if every line has them). A case with a reference_limited row (a family: whose pooled
+// RMSE is limited; that of one line may be small by chance) is summarised and flagged, but is no point of a slope; nor
+// is one with other lines or trials than the most complete case of its series, or with no error at all.
 Summary summarize(const Table& rows);
 
 }  // namespace moire

@@ -48,6 +48,7 @@ void check_scene_refused(const BadScene& bad) {
 
 std::string edge_with(const std::string& rest) { return "kind = \"edge\"\nwidth = 8\nheight = 8\n" + rest + "\n"; }
 std::string disk_with(const std::string& rest) { return "kind = \"disk\"\nwidth = 8\nheight = 8\n" + rest + "\n"; }
+std::string disks_with(const std::string& rest) { return "kind = \"disks\"\nwidth = 8\nheight = 8\n" + rest + "\n"; }
 std::string board_with(const std::string& rest) {
   return "kind = \"checkerboard\"\nwidth = 8\nheight = 8\n" + rest + "\n";
 }
@@ -131,6 +132,17 @@ TEST_SUITE("cli") {
         {disk_with("center = [4]\nradius = 2"), "4:10", "center"},
         {disk_with("center = [4, 4]\nradius = [2]"), "5:10", "radius"},
         {disk_with("radius = 2"), "1:1", "center"},
+        {disks_with("disks = []"), "4:9", "empty"},
+        {disks_with("disks = [4, 4, 2]"), "4:9", "[[x, y, radius], ...]"},
+        {disks_with("disks = [[4, 4]]"), "4:9", "[[x, y, radius], ...]"},
+        {disks_with("disks = [[4, 4, 2],\n [9, 4, 2, 1]]"), "5:2", "equal length"},
+        {disks_with("disks = [[4, 4, 2], [9, 4, -1]]"), "4:9", "radius of disks[1]"},
+        {disks_with("disks = [[4, 4, 2], [9, 4, inf]]"), "4:28", "not finite"},
+        {disks_with("disks = [[4, 4, 2], [1e16, 4, 1]]"), "4:9", "disks[1]"},
+        {disks_with("disks = [[4, 4, 2], [99, 4, 1], [4, 5, 1]]"), "4:9", "disks[0] and disks[2] (counted from 0)"},
+        {disks_with("disks = [[4, 4, 2], [6.9999999999999991, 4, 1]]"), "4:9", "overlap by 8.88e-16 pixels"},
+        {disks_with("disk = [[4, 4, 2]]"), "4:1", "did you mean disks"},
+        {disks_with(""), "1:1", "disks"},
         {board_with("homography = [[1, 0, 0], [0, 1, 0], [0, 0, 0]]\nextent = [0, 1, 0, 1]"), "4:14", "homography"},
         {board_with("homography = [[1, 2, 3], [2, 4, 6], [0, 0, 1]]\nextent = [0, 1, 0, 1]"), "4:14", "homography"},
         {board_with("homography = [[1, 0], [0, 1]]\nextent = [0, 1, 0, 1]"), "4:14", "homography"},

@@ -36,9 +36,16 @@ inline Outcome run_program(const std::vector<std::string>& args, const std::stri
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  // Signals must not meet the test program's handlers in the child: they wait until it has none.
+  sigset_t all, before;
+  sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, &before);
   const pid_t child = ::fork();
+  if (child != 0) ::sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) throw std::runtime_error("fork");
   if (child == 0) {
+    for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
     const int null = ::open("/dev/null", O_RDONLY);
     const int out = out_path.empty() ? out_pipe[1] : ::open(out_path.c_str(), O_WRONLY);
     ::dup2(null, 0);

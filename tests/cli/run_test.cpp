@@ -7,6 +7,7 @@
 
 #include "program.h"
 #include "reports/images.h"
+#include "result_files.h"
 
 using namespace moire::cli;
 using nlohmann::json;
@@ -24,49 +25,6 @@ const std::string kStudy =
     "[[scene]]\nname = \"Edge 1\"\n" +
     kEdge + kBoardScene;
 constexpr std::size_t kRows = 2 * 2 * 2 * (1 + 3 + 3);  // scenes, counts, filters, trials of the three patterns
-
-// File name to bytes, times removed: each time_* value of JSON and of CSV becomes T.
-std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    const std::string name = std::filesystem::relative(entry.path(), folder).string();
-    std::string text = read_file(entry.path());
-    if (name == "results.jsonl") {
-      std::string cleaned;
-      for (const std::string& line : lines_of(text)) {
-        auto row = nlohmann::ordered_json::parse(line);
-        for (auto& [key, value] : row.items()) {
-          if (key.starts_with("time_")) value = "T";
-        }
-        cleaned += row.dump() + "\n";
-      }
-      text = cleaned;
-    } else if (name == "results.csv") {
-      std::vector<bool> is_time;
-      std::string cleaned;
-      for (const std::string& line : lines_of(text)) {
-        std::istringstream stream(line);
-        std::size_t column = 0;
-        for (std::string field; std::getline(stream, field, ','); ++column) {
-          // The one field with commas is the filter, in quotes, left of all times.
-          if (field.starts_with("\"")) {
-            std::string rest;
-            std::getline(stream, rest, '"');
-            field += "," + rest + "\"";
-            std::getline(stream, rest, ',');
-          }
-          if (cleaned.find('\n') == std::string::npos) is_time.push_back(field.starts_with("time_"));
-          cleaned += (is_time.at(column) && cleaned.find('\n') != std::string::npos ? "T" : field) + ",";
-        }
-        cleaned += "\n";
-      }
-      text = cleaned;
-    }
-    files[name] = text;
-  }
-  return files;
-}
 
 }  // namespace
 

@@ -52,7 +52,7 @@ void compare_edges(double far) {
 
 }  // namespace
 
-TEST_SUITE("unit") {
+TEST_SUITE("heavy") {
   TEST_CASE("edges through corners, along sides and almost along them are exact") { compare_edges(0); }
 
   TEST_CASE("edges 2^40 pixels from the origin are as exact as near it") { compare_edges(kFar); }

@@ -44,52 +44,6 @@ int differences(const Rendered& some, const Rendered& all, const ActiveRows& row
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("skipping changes no bit: every pattern, filter and scene, with few and more samples") {
-    const std::vector<Filter> filters = filter_catalogue();
-    for (const PatternChoice& choice : pattern_catalogue()) {
-      for (const int n : {1, 4}) {
-        const Pattern pattern(choice, n, {7, 3});
-        for (const auto& [name, scene] : scene_catalogue()) {
-          for (const Filter& filter : filters) {
-            CAPTURE(choice.text());
-            CAPTURE(filter.text());
-            CAPTURE(name);
-            CAPTURE(n);
-            const ActiveRows rows = enumerate(scene, filter.radius());
-            for (const std::string_view estimator_name : estimator_names()) {
-              CAPTURE(std::string(estimator_name));
-              const Estimator estimator = find_estimator(estimator_name, "test");
-              const Rendered some = render(scene, pattern, filter, estimator, rows);
-              const Rendered all = render(scene, pattern, filter, estimator, rows, true);
-              CHECK(differences(some, all, rows) == 0);
-              CHECK(some.fallbacks == all.fallbacks);
-              CHECK(some.samples_total == all.samples_total);
-              CHECK(all.samples_evaluated == all.samples_total);
-              CHECK(some.samples_evaluated <= some.samples_total);
-            }
-          }
-        }
-      }
-    }
-  }
-
-  TEST_CASE("one thread and several give the same bits, and so does a second run") {
-    for (const auto& [name, scene] : scene_catalogue()) {
-      CAPTURE(name);
-      for (const Filter& filter : filter_catalogue()) {
-        const ActiveRows rows = enumerate(scene, filter.radius());
-        const auto run = [&](int threads) {
-          const ThreadLimit limit(threads);
-          const Pattern pattern(PatternChoice(parse_spec("dart-throwing:k=50", "test")), 5, {1, 0});
-          return render(scene, pattern, filter, Estimator::ratio, rows);
-        };
-        const Rendered one = run(1);
-        CHECK(same(one, run(2)));
-        CHECK(same(one, run(4)));
-      }
-    }
-  }
-
   TEST_CASE("a sample on the edge x = 256 of normal 180 is inside, and pixel 256 is not skipped") {
     // Hammersley's first point is x = 0: in pixel 256 it lies on the line itself, so one sample of n is inside.
     const TestImage scene = scenes::edge({256, 0}, 180, {512, 4});
@@ -257,5 +211,54 @@ TEST_SUITE("unit") {
     const double a = mean_square(Estimator::ratio), b = mean_square(Estimator::control_variate);
     CHECK(a < 1.5 * b);
     CHECK(b < 1.5 * a);
+  }
+}
+
+// Too slow under sanitizers.
+TEST_SUITE("heavy") {
+  TEST_CASE("skipping changes no bit: every pattern, filter and scene, with few and more samples") {
+    const std::vector<Filter> filters = filter_catalogue();
+    for (const PatternChoice& choice : pattern_catalogue()) {
+      for (const int n : {1, 4}) {
+        const Pattern pattern(choice, n, {7, 3});
+        for (const auto& [name, scene] : scene_catalogue()) {
+          for (const Filter& filter : filters) {
+            CAPTURE(choice.text());
+            CAPTURE(filter.text());
+            CAPTURE(name);
+            CAPTURE(n);
+            const ActiveRows rows = enumerate(scene, filter.radius());
+            for (const std::string_view estimator_name : estimator_names()) {
+              CAPTURE(std::string(estimator_name));
+              const Estimator estimator = find_estimator(estimator_name, "test");
+              const Rendered some = render(scene, pattern, filter, estimator, rows);
+              const Rendered all = render(scene, pattern, filter, estimator, rows, true);
+              CHECK(differences(some, all, rows) == 0);
+              CHECK(some.fallbacks == all.fallbacks);
+              CHECK(some.samples_total == all.samples_total);
+              CHECK(all.samples_evaluated == all.samples_total);
+              CHECK(some.samples_evaluated <= some.samples_total);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  TEST_CASE("one thread and several give the same bits, and so does a second run") {
+    for (const auto& [name, scene] : scene_catalogue()) {
+      CAPTURE(name);
+      for (const Filter& filter : filter_catalogue()) {
+        const ActiveRows rows = enumerate(scene, filter.radius());
+        const auto run = [&](int threads) {
+          const ThreadLimit limit(threads);
+          const Pattern pattern(PatternChoice(parse_spec("dart-throwing:k=50", "test")), 5, {1, 0});
+          return render(scene, pattern, filter, Estimator::ratio, rows);
+        };
+        const Rendered one = run(1);
+        CHECK(same(one, run(2)));
+        CHECK(same(one, run(4)));
+      }
+    }
   }
 }

@@ -22,7 +22,7 @@ std::vector<Filter> catalogue() {
     all.emplace_back(parse_spec(name, "test"));
     for (const Param& p : info->params) {
       const std::string key = name + ":" + std::string(p.name) + "=";
-      if (p.kind == Param::Kind::number) {
+      if (p.kind == Param::Kind::number || p.kind == Param::Kind::integer) {
         all.emplace_back(parse_spec(key + shortest(p.min), "test"));
         all.emplace_back(parse_spec(key + shortest(p.max), "test"));
       } else if (p.kind == Param::Kind::choice) {

@@ -68,6 +68,43 @@ TEST_SUITE("unit") {
     CHECK(zero->hi == 0);
   }
 
+  TEST_CASE("equal weights change no bit, and a weight counts as that many pixels") {
+    const std::vector<double> mse = {0.3, 0.1, 0.25, 0.7};
+    for (const double w : {1.0, 4.0}) {
+      const std::vector<double> weights(mse.size(), w);
+      CHECK(rms_over_trials(mse, weights) == rms_over_trials(mse));
+      CHECK(rms_interval(mse, weights)->lo == rms_interval(mse)->lo);
+      CHECK(rms_interval(mse, weights)->hi == rms_interval(mse)->hi);
+    }
+    // 3 pixels of 0.3, 1 of 0.1, none of 0.25, 2 of 0.7; a few roundings.
+    const std::vector<double> weights = {3, 1, 0, 2};
+    CHECK(rms_over_trials(mse, weights) == doctest::Approx(std::sqrt((0.9 + 0.1 + 1.4) / 6)).epsilon(1e-15));
+  }
+
+  TEST_CASE("the interval of a weighted RMSE covers the truth when weights and errors vary together") {
+    // Lines with w pixels, each with an MSE of about 1 / w: the weighted mean is E[w mse] / E[w].
+    constexpr int kRepeats = 2000;
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(1, 3);
+    std::normal_distribution<double> normal(0, 1);
+    const double truth = std::sqrt(std::exp(0.02) / 2);  // log-normal with sigma 0.2; E[w] = 2
+    for (const std::size_t lines : {32, 128}) {
+      int hits = 0;
+      for (int i = 0; i < kRepeats; ++i) {
+        std::vector<double> mse, weights;
+        for (std::size_t k = 0; k < lines; ++k) {
+          weights.push_back(uniform(random));
+          mse.push_back(std::exp(0.2 * normal(random)) / weights.back());
+        }
+        const auto interval = rms_interval(mse, weights);
+        hits += interval->lo <= truth && truth <= interval->hi;
+      }
+      CAPTURE(lines);
+      CHECK(hits >= lowest_count(kRepeats, 0.94));
+      CHECK(hits <= kRepeats * 0.97);  // nor is it far too wide
+    }
+  }
+
   TEST_CASE("the 95% interval of the RMSE covers the truth in 95% of experiments, from 4 trials on") {
     std::mt19937_64 random(11);
     std::normal_distribution<double> normal(0, 1);

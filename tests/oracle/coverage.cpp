@@ -2,6 +2,7 @@
 #include "oracle/coverage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace moire::oracle {
@@ -77,11 +78,34 @@ Value coverage(const Disk& disk, Pixel pixel, double width) {
   return {narrow(part / square), 3e-18L * narrow(min(1, r * r / square))};
 }
 
-Value coverage(const Board& board, Pixel pixel, double width) {
-  const Quad w = widen(width);
-  Quad part = 0;
-  for (const Polygon& p : clip(board, pixel, w / 2)) part += area(p);
-  return {narrow(part / (w * w)), 1e-19L};
+Value coverage(const Board& board, Pixel pixel, double width, double squares) {
+  const Quad w = widen(width), half = w / 2;
+  Quad nearest = 0, beyond = 0;
+  if (!std::isfinite(board.extent[0])) {
+    const Polygon seen = clip_front(board, pixel, half, 0);
+    const auto depth = [&](Quad x, Quad y) {
+      return widen(board.homography[6]) * (x + static_cast<Quad>(pixel.x) + Quad(1) / 2) +
+             widen(board.homography[7]) * (y + static_cast<Quad>(pixel.y) + Quad(1) / 2) + widen(board.homography[8]);
+    };
+    const Quad corner[] = {depth(-half, -half), depth(half, -half), depth(half, half), depth(-half, half)};
+    const Quad lowest = *std::min_element(corner, corner + 4), highest = *std::max_element(corner, corner + 4);
+    if (highest <= 0) return {0, 0};
+    if (lowest <= 0) {
+      // The nearest line W = const to the horizon that leaves no more squares in front of it.
+      Quad low = 0, high = highest;
+      for (int step = 0; step < 60; ++step) {
+        const Quad mid = (low + high) / 2;
+        const Polygon front = clip_front(board, pixel, half, mid);
+        const bool few = front.size() < 3 || squares_in(board, pixel, front) <= widen(squares);
+        (few ? high : low) = mid;
+      }
+      nearest = high;
+      beyond = area(seen) - area(clip_front(board, pixel, half, nearest));
+    }
+  }
+  Quad part = beyond / 2;
+  for (const Polygon& p : clip(board, pixel, half, nearest)) part += area(p);
+  return {narrow(part / (w * w)), 1e-19L + narrow(beyond / (2 * w * w))};
 }
 
 }  // namespace moire::oracle

@@ -7,9 +7,11 @@ namespace moire::oracle {
 
 // Area of the scene inside the square of that width (pixels) around the pixel's centre, over the square's area.
 // Half-plane: the five cases of a corner cut off a square. Disk: between the heights where the circle meets the
-// square's sides or turns, trapezoids and circular segments. Board: the shoelace formula over clipped squares.
+// square's sides or turns, trapezoids and circular segments. Board: the shoelace formula over clipped squares. Where a
+// board without end meets its horizon in the window, about `squares` of them are clipped; what lies beyond counts as
+// half covered and half its area is in the error.
 Value coverage(const Edge& edge, Pixel pixel, double width);
 Value coverage(const Disk& disk, Pixel pixel, double width);
-Value coverage(const Board& board, Pixel pixel, double width);
+Value coverage(const Board& board, Pixel pixel, double width, double squares = 2000);
 
 }  // namespace moire::oracle

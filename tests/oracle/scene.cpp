@@ -37,6 +37,34 @@ void clip_plane(std::vector<Homogeneous>& polygon, std::vector<Homogeneous>& scr
   polygon.swap(scratch);
 }
 
+// The rows U, V, W as functions of a point relative to the pixel's centre.
+std::array<Quad, 9> around(const Board& board, Pixel pixel) {
+  std::array<Quad, 9> h;
+  for (std::size_t i = 0; i < 9; ++i) h[i] = widen(board.homography[i]);
+  const Quad cx = static_cast<Quad>(pixel.x) + Quad(1) / 2, cy = static_cast<Quad>(pixel.y) + Quad(1) / 2;
+  for (std::size_t row = 0; row < 3; ++row) h[3 * row + 2] += h[3 * row] * cx + h[3 * row + 1] * cy;
+  return h;
+}
+
+// A point's place on the plane.
+Point project(const std::array<Quad, 9>& h, const Point& p) {
+  const Quad w = h[6] * p.x + h[7] * p.y + h[8];
+  return {(h[0] * p.x + h[1] * p.y + h[2]) / w, (h[3] * p.x + h[4] * p.y + h[5]) / w};
+}
+
+// An extent of whole squares that holds all of a board without end that is seen in `front`, one square to spare.
+std::array<double, 4> extent_around(const std::array<Quad, 9>& h, const Polygon& front) {
+  std::array<double, 4> e{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
+  for (const Point& p : front) {
+    const Point q = project(h, p);
+    e[0] = std::min(e[0], std::floor(static_cast<double>(q.x)) - 1);
+    e[1] = std::max(e[1], std::floor(static_cast<double>(q.x)) + 2);
+    e[2] = std::min(e[2], std::floor(static_cast<double>(q.y)) - 1);
+    e[3] = std::max(e[3], std::floor(static_cast<double>(q.y)) + 2);
+  }
+  return e;
+}
+
 }  // namespace
 
 Edge edge_of(const TestImage& image) {
@@ -51,8 +79,11 @@ Disk disk_of(const TestImage& image) {
 
 Board board_of(const TestImage& image) {
   Board b{};
-  const auto h = stored(image, "homography"), e = stored(image, "extent");
+  const auto h = stored(image, "homography");
   for (std::size_t i = 0; i < 9; ++i) b.homography[i] = h.at(i);
+  b.extent = {-HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL};
+  if (image.stored().size() == 1) return b;
+  const auto e = stored(image, "extent");
   for (std::size_t i = 0; i < 4; ++i) b.extent[i] = e.at(i);
   return b;
 }
@@ -74,11 +105,29 @@ Polygon clip(const HalfPlane& h, Quad half) {
   return out;
 }
 
-std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half) {
-  std::array<Quad, 9> h;
-  for (std::size_t i = 0; i < 9; ++i) h[i] = widen(board.homography[i]);
-  const Quad cx = static_cast<Quad>(pixel.x) + Quad(1) / 2, cy = static_cast<Quad>(pixel.y) + Quad(1) / 2;
-  for (std::size_t row = 0; row < 3; ++row) h[3 * row + 2] += h[3 * row] * cx + h[3 * row + 1] * cy;
+Polygon clip_front(const Board& board, Pixel pixel, Quad half, Quad nearest) {
+  const std::array<Quad, 9> h = around(board, pixel);
+  std::vector<Homogeneous> polygon{{-half, -half, 1}, {half, -half, 1}, {half, half, 1}, {-half, half, 1}}, scratch;
+  clip_plane(polygon, scratch, h[6], h[7], h[8] - nearest);
+  Polygon out;
+  for (const Homogeneous& p : polygon) out.push_back({p.x / p.z, p.y / p.z});
+  return out;
+}
+
+Quad squares_in(const Board& board, Pixel pixel, const Polygon& polygon) {
+  const std::array<Quad, 9> h = around(board, pixel);
+  Polygon seen;
+  for (const Point& p : polygon) seen.push_back(project(h, p));
+  Quad perimeter = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Point &p = seen[i], &q = seen[(i + 1) % seen.size()];
+    perimeter += abs(q.x - p.x) + abs(q.y - p.y);
+  }
+  return area(seen) + perimeter / 2;
+}
+
+std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half, Quad nearest) {
+  const std::array<Quad, 9> h = around(board, pixel);
   // The adjugate maps (u, v, 1) back to a multiple of (x, y, 1); with the determinant's sign the factor has that of W.
   std::array<Quad, 9> g{h[4] * h[8] - h[5] * h[7], h[2] * h[7] - h[1] * h[8], h[1] * h[5] - h[2] * h[4],
                         h[5] * h[6] - h[3] * h[8], h[0] * h[8] - h[2] * h[6], h[2] * h[3] - h[0] * h[5],
@@ -87,6 +136,7 @@ std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half) {
     for (Quad& v : g) v = -v;
 
   std::vector<Homogeneous> polygon, scratch;
+  const bool endless = !std::isfinite(board.extent[0]);
   // The window's part of a rectangle of the plane, left in `polygon`; empty when they do not meet.
   const auto clip_rectangle = [&](double ul, double ur, double vl, double vr) {
     polygon.clear();
@@ -98,11 +148,14 @@ std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half) {
     const Quad side[4][3] = {{1, 0, half}, {-1, 0, half}, {0, 1, half}, {0, -1, half}};
     for (const auto& s : side)
       if (!polygon.empty()) clip_plane(polygon, scratch, s[0], s[1], s[2]);
+    if (endless && !polygon.empty()) clip_plane(polygon, scratch, h[6], h[7], h[8] - nearest);
     return polygon.size() >= 3;
   };
 
   std::vector<Polygon> out;
-  const auto [u0, u1, v0, v1] = board.extent;
+  const Polygon front = endless ? clip_front(board, pixel, half, nearest) : Polygon{};
+  if (endless && front.size() < 3) return out;
+  const auto [u0, u1, v0, v1] = endless ? extent_around(h, front) : board.extent;
   for (double v = std::floor(v0); v < v1; v += 1) {
     const double vl = std::max(v, v0), vr = std::min(v + 1, v1);
     if (!clip_rectangle(u0, u1, vl, vr)) continue;

@@ -20,7 +20,8 @@ struct Disk {
   double center[2], radius;
 };
 
-// (x, y, 1) -> (U, V, W), seen where W > 0; inside: u0 <= u < u1, v0 <= v < v1 and floor(u) + floor(v) even.
+// (x, y, 1) -> (U, V, W), seen where W > 0; inside: u0 <= u < u1, v0 <= v < v1 and floor(u) + floor(v) even. The whole
+// plane has an infinite extent.
 struct Board {
   std::array<double, 9> homography;
   std::array<double, 4> extent;
@@ -47,9 +48,16 @@ using Polygon = std::vector<Point>;
 
 // The parts of a convex figure inside the square [-half, half]^2 around the pixel's centre, by Sutherland and Hodgman,
 // "Reentrant polygon clipping", CACM 17(1), 1974. The board's squares are clipped in homogeneous coordinates, so that
-// squares that pass under the camera need no case of their own.
+// squares that pass under the camera need no case of their own. A board without end is clipped where W >= nearest only;
+// its squares must be finite in number there, so that nearest > 0 where the window meets the horizon.
 Polygon clip(const HalfPlane& half_plane, Quad half);
-std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half);
+std::vector<Polygon> clip(const Board& board, Pixel pixel, Quad half, Quad nearest = 0);
+
+// The part of the window where W >= nearest.
+Polygon clip_front(const Board& board, Pixel pixel, Quad half, Quad nearest);
+// About how many squares a polygon of that kind meets, W > 0 at its vertices: its area in the plane and half its
+// perimeter there.
+Quad squares_in(const Board& board, Pixel pixel, const Polygon& polygon);
 
 // Unsigned, in pixel-local coordinates.
 Quad area(const Polygon& polygon);

@@ -221,6 +221,55 @@ TEST_SUITE("io") {
     CHECK(folder.entries() == 1);
   }
 
+  TEST_CASE("a results file that was cut anywhere reads back up to its last whole line, and goes on from there") {
+    const Folder folder;
+    const std::string path = folder.file("results.jsonl");
+    const std::string header = json_header(tool(), host(), {"s", "text"});
+    Row row;
+    row.set("scene", std::string("s"));
+    row.set("spp", std::int64_t{4});
+    {
+      JsonLines results(path, header);
+      results.append(row);
+      results.append(row);
+    }
+    const std::string whole = bytes_of(path);
+    const std::size_t one = json_row(row).size() + 1, first = header.size() + 1;
+    CHECK(read_results(folder.file("none.jsonl")).header.empty());
+    for (std::size_t size = 0; size <= whole.size(); ++size) {
+      std::ofstream(path, std::ios::binary) << whole.substr(0, size);
+      const ResultsFile found = read_results(path);
+      const std::size_t rows = size < first ? 0 : (size - first) / one;
+      const std::size_t kept = size < first ? 0 : first + rows * one;
+      CAPTURE(size);
+      CHECK(found.header == (size < first ? "" : header));
+      CHECK(found.rows.size() == rows);
+      CHECK(found.whole_bytes == kept);
+      CHECK(found.cut == whole.substr(kept, size - kept));
+      if (found.header.empty()) continue;
+      JsonLines results(path, found);
+      results.append(row);
+      CHECK(bytes_of(path) == whole.substr(0, kept) + json_row(row) + "\n");
+    }
+  }
+
+  TEST_CASE("two headers belong together unless study, schema or build differ") {
+    Tool build = tool();
+    const StudyText study{"s", "text"};
+    const std::string header = json_header(build, host(), study);
+    CHECK(header_difference(header, header).empty());
+    Host other = host();
+    other.cpu += " II";
+    other.cores += 1;
+    CHECK(header_difference(json_header(build, other, study), header).empty());
+    CHECK(header_difference(json_header(build, host(), {"s", "texts"}), header).rfind("another study (sha256", 0) == 0);
+    CHECK(header_difference(json_header(build, host(), {"t", "text"}), header) ==
+          "another name of the study (name \"t\", here \"s\")");
+    build.compiler = "cc";
+    CHECK(header_difference(json_header(build, host(), study), header).rfind("another build (compiler \"cc\"", 0) == 0);
+    CHECK(header_difference("{}", header).rfind("another schema", 0) == 0);
+  }
+
   TEST_CASE("a file is replaced whole, and stays as it was when its replacement fails") {
     const Folder folder;
     const std::string path = folder.file("a.txt");

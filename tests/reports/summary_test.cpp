@@ -140,6 +140,66 @@ TEST_SUITE("unit") {
     CHECK(is_empty(summary.rows[0], "bias_sq_active"));
   }
 
+  TEST_CASE(
+      "random lines are one scene: errors by pixels, intervals and slopes over lines, trials of a line together") {
+    // Lines of 10, 20 and 70 pixels; the error of trial t of line k is a power law times its own factor.
+    const double pixels[] = {10, 20, 70}, factor[] = {1, 3, 0.5};
+    Table rows;
+    for (const std::int64_t spp : {1, 4, 16}) {
+      for (const std::int64_t line : {2, 0, 1}) {
+        for (const std::int64_t trial : {1, 0}) {
+          const double mse = factor[line] * (trial == 0 ? 0.9 : 1.1) * std::pow(static_cast<double>(spp), -1.5);
+          Row row = raw("jittered", spp, trial, mse);
+          row.set("scene", "edges:line=" + std::to_string(line));
+          row.set("n_pixels_active", static_cast<std::int64_t>(pixels[line]));
+          row.set("pixels_active", static_cast<std::int64_t>(pixels[line]));
+          row.set("bias_active", 0.1 * factor[line]);
+          if (trial == 1) row.set("variance_active", factor[line]);
+          // One line may be small by chance: the family is not limited.
+          row.set("reference_limited", line == 2 && spp == 16);
+          rows.push_back(row);
+        }
+      }
+    }
+    const Summary summary = summarize(rows);
+    REQUIRE(summary.rows.size() == 3);
+    const Row& row = summary.rows[0];
+    const double pooled = (10 * 1 + 20 * 3 + 70 * 0.5) / 100;
+    CHECK(row.text("scene") == "edges");
+    CHECK(row.number("n_scenes") == 3);
+    CHECK(row.number("n_trials") == 2);
+    CHECK(row.number("rmse_active") == doctest::Approx(std::sqrt(pooled)).epsilon(1e-15));
+    const auto interval = rms_interval(std::vector<double>{1, 3, 0.5}, std::vector<double>{20, 40, 140});
+    CHECK(row.number("rmse_active_lo") == doctest::Approx(interval->lo).epsilon(1e-14));
+    CHECK(row.number("rmse_active_hi") == doctest::Approx(interval->hi).epsilon(1e-14));
+    CHECK(row.text("ci_method") == "t-log-mse-by-line");
+    CHECK(row.number("bias_active") == doctest::Approx(0.1 * pooled).epsilon(1e-14));
+    CHECK(row.number("variance_active") == doctest::Approx(pooled).epsilon(1e-14));
+    CHECK(is_empty(row, "bias_sq_active"));
+    CHECK(*row.find("pixels_active") == Cell(std::int64_t{100}));
+    CHECK(*row.find("samples_total") == Cell(std::int64_t{6000}));
+    CHECK_FALSE(row.flag("reference_limited"));
+    REQUIRE(summary.slopes.size() == 1);
+    const Row& slope = summary.slopes[0];
+    CHECK(slope.text("scene") == "edges");
+    CHECK(slope.number("slope") == doctest::Approx(-0.75).epsilon(1e-14));
+    CHECK(slope.number("n_spp") == 3);
+    CHECK(slope.text("ci_method") == "bootstrap-se-t-by-line");
+    // All lines follow one law, whichever are drawn.
+    CHECK(slope.number("slope_hi") - slope.number("slope_lo") == doctest::Approx(0).epsilon(1e-12));
+
+    // A line with a law of its own shows in the interval over lines; more trials of it do not narrow that.
+    for (Row& r : rows) {
+      if (r.text("scene") != "edges:line=1") continue;
+      r.set("mse_active", r.number("mse_active") * r.number("spp"));
+    }
+    const Summary mixed = summarize(rows);
+    CHECK(mixed.slopes[0].number("slope_hi") - mixed.slopes[0].number("slope_lo") > 0.1);
+    // A line that is missing at one count makes that count no point of the slope.
+    rows.pop_back();
+    CHECK(summarize(rows).slopes[0].text("left_out") == "16 (other lines or trials)");
+  }
+
   TEST_CASE("failed rows and rows without an error count nowhere, and the order of rows does not matter") {
     Table rows;
     for (const std::int64_t spp : {1, 4, 16}) {

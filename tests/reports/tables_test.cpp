@@ -104,6 +104,50 @@ TEST_SUITE("unit") {
     CHECK(markdown_report("none", {}, {}) == "# none\n\nNo rows.\n");
   }
 
+  TEST_CASE("families of random lines are shown as groups, and a first paragraph compares their rates") {
+    Table rows;
+    for (const std::string family : {"tilted", "upright"}) {
+      for (const int line : {0, 1, 2}) {
+        for (Row row : small_study()) {
+          if (row.text("filter") != "box" || row.number("trial") != 0) continue;
+          row.set("scene", family + ":line=" + std::to_string(line));
+          const bool steep = family == "upright" && row.text("pattern") == "random";
+          const double rmse = row.number("rmse_active") * (steep ? std::pow(row.number("spp"), -0.5) : 1) * (1 + line);
+          row.set("mse_active", rmse * rmse);
+          row.set("rmse_active", rmse);
+          row.set("max_abs_active", 2 * rmse);
+          row.set("n_pixels_active", std::int64_t{50});
+          rows.push_back(row);
+        }
+      }
+    }
+    const Summary summary = summarize(rows);
+    const std::string report = markdown_report("edges", rows, summary), screen = terminal_tables(summary, false);
+    CAPTURE(report);
+    CAPTURE(screen);
+    const std::string first =
+        "Random edges, `box`: with N samples per pixel the error falls as N^s. On `tilted` / `upright` s is "
+        "-0.50 / -1.00 for `random` (95% intervals apart); and -0.75 / -0.75 for `jittered:amount=0.5` (95% intervals "
+        "meet).\n";
+    CHECK(report.rfind("# edges\n\n" + first, 0) == 0);
+    CHECK(report.find("| slope, `box` | `tilted` | `upright` |") != std::string::npos);
+    CHECK(report.find("- scene `tilted`: 64 x 48 pixels, 3 random edges\n") != std::string::npos);
+    CHECK(report.find("| worst pixel | (10, 20) of `tilted:line=2`: got ") != std::string::npos);
+    CHECK(count(report, "### `upright`\n") == 1);
+    CHECK(count(report, ":line=0") == 0);
+    CHECK(screen.rfind("Random edges, box: with N samples", 0) == 0);
+    CHECK(count(screen, "tilted, box\n") == 1);
+    CHECK(count(screen, ":line=") == 0);
+    std::size_t begin = 0;
+    for (std::size_t end; begin < screen.find("\n\n"); begin = end + 1) {
+      end = screen.find('\n', begin);
+      CHECK(end - begin <= 110);
+    }
+    // One family alone has nothing to be compared with.
+    std::erase_if(rows, [](const Row& row) { return row.text("scene").substr(0, 6) == "tilted"; });
+    CHECK(markdown_report("edges", rows, summarize(rows)).rfind("# edges\n\n## The answer", 0) == 0);
+  }
+
   TEST_CASE("every line of a table has as many bars as its header, whatever the names hold") {
     Table rows = small_study();
     for (Row& row : rows) {

@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 
+#include "core/error.h"
 #include "core/parallel.h"
 
 using namespace moire;
@@ -78,9 +80,12 @@ TEST_SUITE("unit") {
       CHECK(result.row.text("image_got").ends_with("_t0.got.exr"));
       ++case_images;
     };
-    observer.progress = [&](double done) {
-      CHECK(done > share);
-      share = done;
+    std::size_t steps = 0;
+    observer.progress = [&](std::size_t done, std::size_t due, double work) {
+      CHECK(done == ++steps);
+      CHECK(due == cases.size());
+      CHECK(work > share);
+      share = work;
     };
     const Results results = run(study, cases, observer);
     CHECK(results.complete);
@@ -153,6 +158,58 @@ TEST_SUITE("unit") {
       // Both sides are sums over some dozen pixels of terms below 1: a few hundred roundings of 1e-16 relative.
       CHECK(rows[i].number("bias_sq_active") + rows[i].number("variance_active") ==
             doctest::Approx(mse).epsilon(1e-12));
+    }
+  }
+
+  TEST_CASE("whatever rows are there already, a run adds the others and ends with the same results") {
+    const Study study = small_study();
+    const std::vector<Case> cases = plan(study);
+    const Table whole = run(study, cases, {}).rows;
+    const auto earlier_with = [&](auto&& keep) {
+      Table earlier(cases.size());
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (keep(i)) earlier[i] = whole[i];
+      }
+      return earlier;
+    };
+    std::mt19937 random(1);
+    for (int round = 0; round < 12; ++round) {
+      const Table earlier = earlier_with([&](std::size_t) { return random() % 12 < static_cast<unsigned>(round); });
+      std::size_t added = 0, missing = 0, images = 0;
+      for (const Row& row : earlier) missing += row.cells().empty();
+      Observer observer;
+      observer.row = [&](const Row&) { ++added; };
+      observer.has_exact_image = [](std::uint32_t, std::uint32_t) { return true; };
+      observer.exact_image = [&](std::uint32_t, std::uint32_t, const Truth&) { FAIL("it is there"); };
+      observer.has_case_image = [&](const Case& c) { return c.pattern != 0; };  // those of `regular` have gone
+      observer.case_image = [&](const Case& c, const Truth&, const CaseResult&) { images += c.pattern == 0; };
+      const Results results = run(study, cases, observer, earlier);
+      CHECK(results.complete);
+      CHECK(added == missing);
+      CHECK(images == 2 * 2 * 2);  // scenes, counts, filters
+      CHECK(fingerprint(results.rows) == fingerprint(whole));
+    }
+    // Everything there: no work.
+    Observer observer;
+    observer.progress = [](std::size_t, std::size_t, double) { FAIL("nothing is due"); };
+    CHECK(fingerprint(run(study, cases, observer, whole).rows) == fingerprint(whole));
+  }
+
+  TEST_CASE("an earlier row that its case does not give is refused when that is computed again") {
+    const Study study = small_study();
+    const std::vector<Case> cases = plan(study);
+    Table earlier = run(study, cases, {}).rows;
+    // `random`, trials 0 to 2: the last one is missing, so that all are computed for the variance.
+    std::size_t first = 0;
+    while (cases[first].pattern != 1) ++first;
+    earlier[first + 2] = {};
+    earlier[first].set("mae_all", earlier[first].number("mae_all") * (1 + 1e-15));
+    try {
+      run(study, cases, {}, earlier);
+      FAIL("not refused");
+    } catch (const Error& e) {
+      CHECK(e.code() == Exit::failed);
+      CHECK(std::string(e.what()).find(describe(study, cases[first]) + ": its \"mae_all\" differs") == 0);
     }
   }
 

@@ -209,11 +209,22 @@ TEST_SUITE("unit") {
     }
   }
 
+  TEST_CASE("a list of disks is read row by row, over several lines and with whole numbers") {
+    const NamedScene scene = parse_scene("kind = \"disks\"\nwidth = 64\nheight = 32\ndisks = [\n  [10.5, 20.25, 0.3],\n"
+                                         "  [40, 20, 3],  # touches the next\n  [45.0, 20.0, 2.0],\n]\n",
+                                         "d.toml", "d");
+    const StoredDoubles stored = scene.image.stored();
+    REQUIRE(stored.size() == 1);
+    CHECK(stored[0].first == "disks");
+    CHECK(stored[0].second == std::vector<double>{10.5, 20.25, 0.3, 40, 20, 3, 45, 20, 2});
+  }
+
   TEST_CASE("what is wrong in a scene is refused where it stands, with what would be right") {
     struct Bad {
       std::string text, place, says;
     };
     const std::string edge = "kind = \"edge\"\n", size = "width = 8\nheight = 8\n", through = "through = [1, 2]\n";
+    const std::string disks = "kind = \"disks\"\n";
     const Bad bads[] = {
         {"", "e.toml:1:1", "no kind"},
         {"kind = 3\n", "e.toml:1:8", "text in quotes"},
@@ -244,6 +255,15 @@ TEST_SUITE("unit") {
         {edge + size + through + "[normal]\nfrom = { x = 1 }\n", "e.toml:5:1", "range"},
         {edge + size + through + "normal.a.b = 1\n", "e.toml:5:8", "table within a table"},
         {edge + size + through + "file = \"x\"\n", "e.toml:5:1", "file"},
+        {disks + size + "disks = []\n", "e.toml:4:9", "empty"},
+        {disks + size + "disks = [[]]\n", "e.toml:4:10", "equal length"},
+        {disks + size + "disks = [1, 2, 3]\n", "e.toml:4:9", "[[x, y, radius], ...]"},
+        {disks + size + "disks = [[1, 2], [3, 4]]\n", "e.toml:4:9", "[[x, y, radius], ...]"},
+        {disks + size + "disks = [[1, 2, 3],\n  [9, 9, 1, 1]]\n", "e.toml:5:3", "equal length"},
+        {disks + size + "disks = [[1, 2, 3],\n  [9, nan, 1]]\n", "e.toml:5:7", "not finite"},
+        {disks + size + "disks = [[1, 2, 3], [9, 9, 0]]\n", "e.toml:4:9", "radius of disks[1]"},
+        {disks + size + "disks = [[1, 2, 3], [30, 9, 1], [1, 4, 3]]\n", "e.toml:4:9", "disks[0] and disks[2]"},
+        {disks + size + "center = [1, 2]\nradius = 3\n", "e.toml:4:1", "disks"},
     };
     for (const Bad& bad : bads) {
       CAPTURE(bad.text);

@@ -39,6 +39,17 @@ Quad disk_inside(const StoredDoubles& s, Pixel p, double x, double y) {
   return r * r - dx * dx - dy * dy;
 }
 
+Quad disks_inside(const StoredDoubles& s, Pixel p, double x, double y) {
+  const std::vector<double>& d = s[0].second;
+  Quad inside = -1;
+  for (std::size_t i = 0; i < d.size(); i += 3) {
+    const Quad dx = offset(d[i], p.x, x), dy = offset(d[i + 1], p.y, y), r = d[i + 2];
+    const Quad value = r * r - dx * dx - dy * dy;
+    if (i == 0 || value > inside) inside = value;
+  }
+  return inside;
+}
+
 // +-distance in squares to the nearest line, by the plane's definition.
 Quad board_inside(const StoredDoubles& s, Pixel p, double px, double py) {
   const Quad x = offset(0, p.x, px), y = offset(0, p.y, py);
@@ -64,6 +75,15 @@ std::vector<Case> cases() {
   all.push_back({"disk, through lattice points", disk({32, 32}, 5), disk_inside, 0});
   all.push_back({"disk, small", disk({31.7, 32.3}, 0.01), disk_inside, 4096 * 0x1p-110});
   all.push_back({"disk, huge", disk({32 + 6e8, 32 + 8e8}, 1e9), disk_inside, 8e18 * 0x1p-110});
+  all.push_back({"disks", disks({20.3, 25.1, 9.7, 38.9, 31.7, 3.2, 33.1, 24.8, 1e-3, 40, 40, 1e-6}), disks_inside,
+                 8192 * 0x1p-110});
+  // All touch in lattice points or half of them; such a point is inside.
+  all.push_back({"disks, touching",
+                 disks({32, 28, 5, 41, 40, 10, 23, 28, 4, 27.5, 34, 2.5, 32, 22.5, 0.5, 41, 29.75, 0.25}),
+                 disks_inside});
+  all.push_back({"disks, far",
+                 disks({far + 5.25, -far + 5, 5, far + 15.25, -far + 5, 5, far + 10.25, -far + 0.5, 0.5}),
+                 disks_inside});
   all.push_back({"board, level", board({0.25, 0, -8, 0, 0.25, -8, 0, 0, 1}, {-7, 7, -7, 7}), board_inside});
   all.push_back({"board, camera", board({.focal = 64, .principal = {32, 32}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
                                         {-3, 4, 1, 9}), board_inside});
@@ -74,6 +94,10 @@ std::vector<Case> cases() {
 Pixel home(const Case& c) {
   const StoredDoubles s = c.scene.stored();
   if (c.inside == edge_inside) return {static_cast<std::int64_t>(s[0].second[0]), static_cast<std::int64_t>(s[0].second[1])};
+  if (c.inside == disks_inside) {
+    const std::vector<double>& d = s[0].second;
+    return {static_cast<std::int64_t>(d[0] + d[2]), static_cast<std::int64_t>(d[1])};
+  }
   if (c.inside == disk_inside && s[1].second[0] < 1) return {31, 32};
   if (c.inside == disk_inside && s[1].second[0] < 10) return {29, 28};
   if (c.inside == disk_inside && s[1].second[0] < 100) return {11, 32};

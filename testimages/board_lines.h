@@ -1,0 +1,41 @@
+// The lines of a checkerboard in perspective as lines of the image, relative to a pixel.
+#pragma once
+
+#include <cmath>
+
+#include "curve/polygon.h"
+#include "testimages/homography.h"
+
+namespace moire {
+
+// u0 <= u <= u1, v0 <= v <= v1; infinite on all sides without an extent.
+struct Extent {
+  double u0 = -HUGE_VAL, u1 = HUGE_VAL, v0 = -HUGE_VAL, v1 = HUGE_VAL;
+};
+
+// Whether the square k <= u < k + 1, l <= v < l + 1 is inside; any integers as doubles.
+inline bool even_square(double k, double l) {
+  const double sum = k + l;
+  return sum == 2 * std::floor(sum / 2);
+}
+
+// The line through the plane where row r equals k times row w, as sign * (r - k w) >= 0, with the rounding of its
+// value.
+struct BoardLine {
+  HalfPlane plane;
+  double constant_error;  // of c, from cancellation in double-double
+  // Bound on the error of plane.at() at points up to (ax, ay) away.
+  double doubt(double ax, double ay) const {
+    constexpr double kUnit = 0x1p-53;
+    return 6 * kUnit * (std::fabs(plane.a) * ax + std::fabs(plane.b) * ay + std::fabs(plane.c)) + constant_error;
+  }
+};
+
+inline BoardLine board_line(const LocalHomography::Row& r, const LocalHomography::Row& w, double k, double sign) {
+  const Dd a = Dd(r.a) - two_prod(k, w.a), b = Dd(r.b) - two_prod(k, w.b), c = r.c - Dd(k) * w.c;
+  // A product and a sum in double-double, 2^-102 with room to spare.
+  const double rounding = 0x1p-98 * (std::fabs(r.c.hi) + std::fabs(k * w.c.hi));
+  return {{sign * a.value(), sign * b.value(), sign * c.value()}, r.c_error + std::fabs(k) * w.c_error + rounding};
+}
+
+}  // namespace moire
