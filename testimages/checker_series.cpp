@@ -221,7 +221,11 @@ Series::Series(const Row& smooth, const Row& jump, const Row& w, const Polygon& 
     deepest_ = std::max(deepest_, w1 + w_error_);
     // Between W = a and W = w1 the side crosses (|S'W - SW'| + |J'W - JW'|) (1/a - 1/w1) / (w1 - w0) lines.
     const double along = std::fabs(side.along_s.value) + std::fabs(side.along_j.value);
-    if (w0 <= 0 || along > max_pieces * w0 * w1) {
+    if (w_error_ > 0x1p-54 * w1) {
+      // On the horizon, or W itself is in doubt: coordinates beyond 2^45.
+      side.from = 1;
+      side.left_out = w1 + w_error_;
+    } else if (w0 <= 0 || along > max_pieces * w0 * w1) {
       const double rise = w1 - side.w0.value();
       const double delta = std::max(1 / (1 / w1 + max_pieces * rise / along), 0x1p-40 * w1);
       if (!(delta > w0)) {
@@ -328,6 +332,7 @@ Bounded Series::integrate(const Side& side) const {
 }
 
 Bounded Series::integrate() const {
+  if (!(det_.error <= 0x1p-21 * std::fabs(det_.value))) return {0, HUGE_VAL};
   Sum sum;
   double error = remainder_;
   for (const Side& side : sides_) {

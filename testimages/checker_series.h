@@ -37,8 +37,9 @@ inline constexpr double kMaxPieces = 40000;
 // Sides are cut into at most `max_pieces` pieces each; what is left towards the horizon is in the bound, which falls
 // with the square of that number.
 //
-// `polygon` is convex, in order (closed integral of x dy positive), relative to the pixel's centre like `local`; what
-// lies at W < 0 does not count. The bound holds for the polygon as it stands: remainder, rounding and the horizon.
+// `polygon` is convex, in order (closed integral of x dy positive), relative to the pixel's centre like `local`, and
+// lies where W >= 0, up to rounding. The bound holds for the polygon as it stands: remainder, rounding and the horizon.
+// Never more than half the polygon's area, which is known beforehand.
 BoxIntegral board_series(const LocalHomography& local, const Polygon& polygon, double max_pieces = kMaxPieces);
 
 }  // namespace moire

@@ -92,7 +92,7 @@ Exit execute(const RunOptions& options) {
   const bool replaces = !options.resume && std::filesystem::is_regular_file(path);
   JsonLines results = goes_on ? JsonLines(path, earlier.file) : JsonLines(path, header);
   if (!goes_on) remove_reports(options.folder);
-  if (replaces) say(path, "earlier results are replaced; with --resume they would have been kept and gone on with");
+  if (replaces) say(path, "earlier results are replaced; --resume would have gone on with them");
 
   watch_interrupts();
   Results outcome;
