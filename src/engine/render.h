@@ -34,7 +34,7 @@ struct Rendered {
   Pixels pixels = Pixels::active;
   std::vector<double> value;           // of these pixels, row-major
   std::int64_t samples_total = 0;      // samples of the image grown by the filter's apron
-  std::int64_t samples_evaluated = 0;  // point tests made
+  std::int64_t samples_evaluated = 0;  // point tests made of samples; a fallback's look at the pixel's centre is none
   std::int64_t fallbacks = 0;          // active pixels whose weight sum was too small
 };
 

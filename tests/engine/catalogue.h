@@ -29,6 +29,8 @@ inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid 
   all.emplace_back("board", board({.focal = 28, .principal = {16, 11}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
                                   {-3, 4, 1, 9}, grid));
   all.emplace_back("board on the pixel grid", board({0.25, 0, -1, 0, 0.25, -1, 0, 0, 1}, {0, 4, 0, 3}, grid));
+  all.emplace_back("board to the horizon",
+                   plane({.focal = 28, .principal = {16, 11}, .height = 1.5, .pitch = 10, .yaw = 7, .roll = 3}, grid));
   return all;
 }
 
