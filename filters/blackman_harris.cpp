@@ -1,7 +1,7 @@
 // Blackman-Harris filter: the four-term cosine window used as a kernel, as renderers do.
 //
-// Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66(1), 1978: the
-// minimum four-term window, side lobes below -92 dB. At a width of 4 pixels it is a partition of unity.
+// Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66(1), 1978:
+// the minimum four-term window, side lobes below -92 dB. At a width of 4 pixels it is a partition of unity.
 #include <cmath>
 #include <numbers>
 

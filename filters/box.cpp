@@ -18,9 +18,7 @@ struct Box {
 }  // namespace
 
 extern constinit const FilterInfo box_filter;
-constinit const FilterInfo box_filter = describe<Box>({.name = "box",
-                                                       .title = "Box",
-                                                       .cite = "Heckbert, \"Fundamentals of Texture Mapping\", 1989",
-                                                       .params = kParams});
+constinit const FilterInfo box_filter = describe<Box>(
+    {.name = "box", .title = "Box", .cite = "Heckbert, \"Fundamentals of Texture Mapping\", 1989", .params = kParams});
 
 }  // namespace moire

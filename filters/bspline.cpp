@@ -1,7 +1,7 @@
 // Uniform B-splines: the unit box convolved with itself `order` times, order being the polynomial degree.
 //
-// Unser, "Splines: a perfect fit for signal and image processing", IEEE Signal Processing Magazine 16(6), 1999. Order 0 is
-// the box, 1 the tent, 3 the cubic of the BC family with b = 1, c = 0. A partition of unity at every order.
+// Unser, "Splines: a perfect fit for signal and image processing", IEEE Signal Processing Magazine 16(6), 1999. Order 0
+// is the box, 1 the tent, 3 the cubic of the BC family with b = 1, c = 0. A partition of unity at every order.
 #include "core/dd_math.h"
 #include "filters/filter.h"
 
@@ -22,8 +22,8 @@ struct BSpline {
   }
   int degree() const { return order; }
 
-  // By truncated powers, from the nearer end: (1 / n!) sum over j of (-1)^j C(n + 1, j) (s - j)^n for the j <= s, s counted
-  // from that end. At most half of the terms are there, and double-double has bits to spare.
+  // By truncated powers, from the nearer end: (1 / n!) sum over j of (-1)^j C(n + 1, j) (s - j)^n for the j <= s, s
+  // counted from that end. At most half of the terms are there, and double-double has bits to spare.
   Dd shape(int piece, Dd x) const {
     const int from_end = piece <= order / 2 ? piece : order - piece;
     const Dd s = Dd(radius()) - dd_abs(x);

@@ -20,8 +20,7 @@ namespace moire {
 
 // What a plug-in type must offer. All in pixels; the scale of the shape does not matter.
 template <class F>
-concept FilterType = std::constructible_from<F, const Args&> &&
-    requires(const F& f, int piece, Dd x, double rho) {
+concept FilterType = std::constructible_from<F, const Args&> && requires(const F& f, int piece, Dd x, double rho) {
   { f.knots() } -> std::same_as<std::vector<double>>;  // increasing; the first is -radius, the last +radius
   { f.degree() } -> std::same_as<int>;                 // of the polynomial between knots; -1: not polynomial
   // The kernel's closed form between knots[piece] and knots[piece + 1], both ends included, in double-double: right to

@@ -28,12 +28,17 @@ struct Preset {
   bool offset;
 };
 // Read in the systems' sources and manuals: pbrt-v4, Mitsuba 3, ImageMagick 7, OSPRay's look-up table at width 3, the
-// RenderMan Interface's 2 x 2 filter and Arnold's width 2 after it, Cycles at width 1.5, OpenImageIO 2.4 at its widths 3
-// (sigma = width / 4) and 2 (exp(-4 x^2)).
-constexpr Preset kPresets[] = {
-    {"pbrt", 0.5, 1.5, true},       {"mitsuba", 0.5, 2, true},     {"imagemagick", 0.5, 2, false},
-    {"ospray", 0.5, 1.5, false},    {"renderman", 0.5, 1, false},  {"arnold", 0.5, 1, false},
-    {"cycles", 0.375, 2.25, false}, {"oiio", 0.75, 1.5, false},    {"oiio-sharp", 0.5 * std::numbers::sqrt2 / 2, 1, false}};
+// RenderMan Interface's 2 x 2 filter and Arnold's width 2 after it, Cycles at width 1.5, OpenImageIO 2.4 at its widths
+// 3 (sigma = width / 4) and 2 (exp(-4 x^2)).
+constexpr Preset kPresets[] = {{"pbrt", 0.5, 1.5, true},
+                               {"mitsuba", 0.5, 2, true},
+                               {"imagemagick", 0.5, 2, false},
+                               {"ospray", 0.5, 1.5, false},
+                               {"renderman", 0.5, 1, false},
+                               {"arnold", 0.5, 1, false},
+                               {"cycles", 0.375, 2.25, false},
+                               {"oiio", 0.75, 1.5, false},
+                               {"oiio-sharp", 0.5 * std::numbers::sqrt2 / 2, 1, false}};
 
 struct Gaussian {
   double sigma, radius;
@@ -46,7 +51,8 @@ struct Gaussian {
     if (a.given("sigma") || a.given("radius") || a.given("cut")) {
       throw Error(a.place(), "filter \"gaussian\": a preset sets sigma, radius and cut; give the preset or these");
     }
-    const auto it = std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return p.name == name; });
+    const auto it =
+        std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return p.name == name; });
     sigma = it->sigma;
     radius = it->radius;
     offset = it->offset;
@@ -67,11 +73,11 @@ struct Gaussian {
     return offset ? value - dd_exp(scale * Dd(radius) * Dd(radius)) : value;
   }
 
-  // |exp(w)| = exp(Re w), and |exp(w) - exp(v)| <= |w - v| exp(max(Re w, Re v)): the second is what a wide Gaussian needs
-  // whose offset leaves little.
+  // |exp(w)| = exp(Re w), and |exp(w) - exp(v)| <= |w - v| exp(max(Re w, Re v)): the second is what a wide Gaussian
+  // needs whose offset leaves little.
   double ellipse_bound(int, double rho) const {
     const double half = std::min(radius, 0.75 * sigma);
-    const double height = half * (rho - 1 / rho) / 2;           // imaginary semi-axis
+    const double height = half * (rho - 1 / rho) / 2;          // imaginary semi-axis
     const double reach = radius + half * (rho + 1 / rho) / 2;  // |z| stays below
     const double largest = std::exp(height * height / (2 * sigma * sigma));
     if (!offset) return largest;

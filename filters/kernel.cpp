@@ -88,8 +88,8 @@ double absolute_sum(std::span<const double> c, double rho) {
   return sum;
 }
 
-// Bound on the rounding error of Clenshaw's recurrence b_j = c_j + 2 t b_{j+1} - b_{j+2} for |t| <= 1: step j errs by at
-// most u (2 |2 t b_{j+1}| + |b_{j+2}| + 2 |b_j|), which reaches the result times |U_j| <= j + 1.
+// Bound on the rounding error of Clenshaw's recurrence b_j = c_j + 2 t b_{j+1} - b_{j+2} for |t| <= 1: step j errs by
+// at most u (2 |2 t b_{j+1}| + |b_{j+2}| + 2 |b_j|), which reaches the result times |U_j| <= j + 1.
 double clenshaw_error(std::span<const double> c) {
   const std::size_t n = c.size();
   std::vector<double> b(n + 2, 0.0);  // bounds on |b_j|: sum over i >= j of |c_i| (i - j + 1)

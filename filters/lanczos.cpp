@@ -1,7 +1,7 @@
 // Lanczos filter: the sinc in the main lobe of a wider sinc, sinc(x) sinc(x / a) for |x| < a.
 //
-// Duchon, "Lanczos filtering in one and two dimensions", J. Applied Meteorology 18, 1979. Not quite a partition of unity:
-// whole-image sums miss areas by its ripple, 3e-3 at a = 3.
+// Duchon, "Lanczos filtering in one and two dimensions", J. Applied Meteorology 18, 1979. Not quite a partition of
+// unity: whole-image sums miss areas by its ripple, 3e-3 at a = 3.
 #include <cmath>
 #include <numbers>
 

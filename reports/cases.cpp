@@ -38,8 +38,8 @@ Cases::Cases(const Table& rows) {
   std::sort(spp_.begin(), spp_.end());
 }
 
-const std::vector<const Row*>& Cases::at(const std::string& scene, const std::string& pattern, const Reconstruction& kernel,
-                                         std::int64_t spp) const {
+const std::vector<const Row*>& Cases::at(const std::string& scene, const std::string& pattern,
+                                         const Reconstruction& kernel, std::int64_t spp) const {
   const auto found = rows_.find({scene, pattern, kernel, spp});
   return found == rows_.end() ? none_ : found->second;
 }

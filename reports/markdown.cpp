@@ -181,7 +181,8 @@ void add_ranking(std::string& out, const Report& r) {
 }
 
 // The worst pixel of all trials at the largest sample count.
-std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern, const Reconstruction& kernel) {
+std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern,
+                       const Reconstruction& kernel) {
   const Row* worst = nullptr;
   for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
     const double size = row->number("max_abs_active");
@@ -195,8 +196,8 @@ std::string worst_text(const Report& r, const std::string& scene, const std::str
 }
 
 // The image of the first trial that has one, at the largest sample count.
-std::string image_text(const Report& r, const std::string& scene, const std::string& pattern, const Reconstruction& kernel,
-                       const char* column, const char* what) {
+std::string image_text(const Report& r, const std::string& scene, const std::string& pattern,
+                       const Reconstruction& kernel, const char* column, const char* what) {
   for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
     if (!row->text(column).empty()) return fmt::format("![{}]({})", what, row->text(column));
   }
@@ -215,8 +216,9 @@ void add_pattern(std::string& out, const Report& r, const std::string& pattern) 
     out += "### " + code(pattern) + " on " + code(scene) + "\n\n";
     std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (const std::int64_t spp : r.cases.spp()) {
-      lines.emplace_back(std::to_string(spp),
-                         [&, spp](const Reconstruction& k) { return error_text(r.cases.first(scene, pattern, k, spp)); });
+      lines.emplace_back(std::to_string(spp), [&, spp](const Reconstruction& k) {
+        return error_text(r.cases.first(scene, pattern, k, spp));
+      });
     }
     lines.emplace_back("slope", [&](const Reconstruction& k) { return slope_text(r.slopes.first(scene, pattern, k)); });
     lines.emplace_back("worst pixel", [&](const Reconstruction& k) { return worst_text(r, scene, pattern, k); });

@@ -17,8 +17,8 @@ constexpr Param kParams[] = {
     numbers("through", true, "", "a point of the edge, [x, y] in pixels"),
     numbers("normal", true, "", "towards the inside: degrees from +x towards +y, or a vector [nx, ny]")};
 
-// The unit vector of a direction in degrees, each component right to an ulp: reduced exactly to an octant, then sine and
-// cosine in double-double. Multiples of 90 give 0 and 1 exactly, odd multiples of 45 equal magnitudes.
+// The unit vector of a direction in degrees, each component right to an ulp: reduced exactly to an octant, then sine
+// and cosine in double-double. Multiples of 90 give 0 and 1 exactly, odd multiples of 45 equal magnitudes.
 Vec2 unit_vector(double degrees) {
   const double turn = std::fmod(std::fabs(degrees), 360.0);  // exact, as is the next one
   const double rest = std::fmod(turn, 90.0);
@@ -78,8 +78,10 @@ class Edge {
     const auto [c, far] = offset(origin, 0);
     const double low = n_.x * (n_.x > 0 ? r.lo.x : r.hi.x) + n_.y * (n_.y > 0 ? r.lo.y : r.hi.y) - c;
     const double high = n_.x * (n_.x > 0 ? r.hi.x : r.lo.x) + n_.y * (n_.y > 0 ? r.hi.y : r.lo.y) - c;
-    const double doubt = 8 * kUnit * (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
-                                      std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c)) + far;
+    const double doubt = 8 * kUnit *
+                             (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
+                              std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c)) +
+                         far;
     if (low > doubt) return Cover::all;
     if (high < -doubt) return Cover::none;
     return Cover::partial;
@@ -102,13 +104,11 @@ class Edge {
     out.area_error += 2 * distance * 2.83 * half_width;
   }
 
-  StoredDoubles stored() const {
-    return {{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}};
-  }
+  StoredDoubles stored() const { return {{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}}; }
 
  private:
-  // n . (through - origin - (shift, shift)), rounded, and what double-double may have lost before: it has 100 bits of the
-  // products, which is nothing unless pixel and edge are far from each other's origin along the edge.
+  // n . (through - origin - (shift, shift)), rounded, and what double-double may have lost before: it has 100 bits of
+  // the products, which is nothing unless pixel and edge are far from each other's origin along the edge.
   struct Offset {
     double value, error;
   };

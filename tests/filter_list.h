@@ -10,8 +10,8 @@
 
 namespace moire::test {
 
-// Each filter with its defaults, then with every value of every choice, then some with other numbers. Filters that need a
-// file are left out: their own tests have one.
+// Each filter with its defaults, then with every value of every choice, then some with other numbers. Filters that need
+// a file are left out: their own tests have one.
 inline std::vector<std::string> filter_texts() {
   std::vector<std::string> texts;
   for (const FilterInfo* info : filters()) {
@@ -29,8 +29,8 @@ inline std::vector<std::string> filter_texts() {
     }
   }
   for (const char* text : {"box:width=0.5", "box:width=1.7", "box:width=2", "tent:radius=1.5", "tent:radius=2",
-                           "mitchell:b=0.5,c=0.25", "gaussian:sigma=0.1,radius=0.3", "bspline:order=0", "bspline:order=2",
-                           "bspline:order=5", "lanczos:a=2", "blackman-harris:width=3"}) {
+                           "mitchell:b=0.5,c=0.25", "gaussian:sigma=0.1,radius=0.3", "bspline:order=0",
+                           "bspline:order=2", "bspline:order=5", "lanczos:a=2", "blackman-harris:width=3"}) {
     texts.emplace_back(text);
   }
   return texts;

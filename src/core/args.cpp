@@ -100,8 +100,8 @@ Args::Args(std::string_view owner, std::span<const Param> params, const Given& g
       given_.emplace_back(p.name);
       values_.emplace_back(p.name, checked(owner, p, it->second, place_of(it->second)));
     } else if (p.required) {
-      throw Error(std::string(place), std::string(owner) + " needs \"" + std::string(p.name) + "\": " +
-                                          std::string(p.help));
+      throw Error(std::string(place),
+                  std::string(owner) + " needs \"" + std::string(p.name) + "\": " + std::string(p.help));
     } else if (p.kind == Param::Kind::number || p.kind == Param::Kind::integer) {
       Value v;
       v.numbers = {p.fallback};

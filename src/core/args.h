@@ -46,7 +46,7 @@ struct Value {
   int rank = 0;                 // 0: one number, 1: a list, 2: rows of equal length
   std::size_t columns = 0;      // length of each row when rank == 2
   bool is_text = true;
-  std::string place;            // where it stands, for messages
+  std::string place;  // where it stands, for messages
 };
 
 using Given = std::vector<std::pair<std::string, Value>>;
@@ -59,13 +59,13 @@ class Args {
   Args(std::string_view owner, std::span<const Param> params, const Given& given, std::string_view place);
   Args() = default;
 
-  double number(std::string_view name) const;            // number or integer
-  std::int64_t integer(std::string_view name) const;     // integer
-  std::string_view text(std::string_view name) const;    // choice or path
+  double number(std::string_view name) const;          // number or integer
+  std::int64_t integer(std::string_view name) const;   // integer
+  std::string_view text(std::string_view name) const;  // choice or path
   // The value, or the default of a number, integer or choice; null for others that were not given.
   const Value* find(std::string_view name) const;
   bool given(std::string_view name) const;
-  const std::string& place() const { return place_; }    // where the plug-in was named
+  const std::string& place() const { return place_; }  // where the plug-in was named
 
  private:
   Given values_;

@@ -1,4 +1,5 @@
-// Elementary functions with about 100 bits, for tables made once: Chebyshev points, kernel shapes, directions in degrees.
+// Elementary functions with about 100 bits, for tables made once: Chebyshev points, kernel shapes, directions in
+// degrees.
 #pragma once
 
 #include "core/double_double.h"
@@ -12,7 +13,8 @@ struct CosSin {
   Dd cos, sin;
 };
 
-// |angle| <= 0.8 radians (an octant and a little). Taylor series; the first dropped term is below 0.8^27 / 27! < 2^-100.
+// |angle| <= 0.8 radians (an octant and a little). Taylor series; the first dropped term is below 0.8^27 / 27! <
+// 2^-100.
 inline CosSin dd_cos_sin(Dd angle) {
   const Dd square = angle * angle;
   CosSin r{1.0, angle};

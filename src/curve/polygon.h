@@ -19,9 +19,10 @@ using Polygon = std::vector<Vec2>;
 // The square [-h, h]^2, oriented so that the closed integral of x dy is positive.
 Polygon square(double half_width);
 
-// The part of `polygon` inside `half_plane`, in `out` (which must be another polygon); orientation is kept. A new vertex
-// on a side of constant x or y has exactly that x or y. Every vertex of `out` lies within 4 2^-53 max|coordinate| of the
-// side that it was cut from, and within that plus twice the rounding error of half_plane.at() of the cutting line.
+// The part of `polygon` inside `half_plane`, in `out` (which must be another polygon); orientation is kept. A new
+// vertex on a side of constant x or y has exactly that x or y. Every vertex of `out` lies within 4 2^-53
+// max|coordinate| of the side that it was cut from, and within that plus twice the rounding error of half_plane.at() of
+// the cutting line.
 void clip(const Polygon& polygon, const HalfPlane& half_plane, Polygon& out);
 
 // Sum of the sides' lengths.

@@ -39,8 +39,8 @@ class ActiveRows {
  private:
   Grid grid_;
   std::vector<Run> runs_;
-  std::vector<std::size_t> row_begin_;        // height + 1
-  std::vector<std::int64_t> first_active_;    // height + 1
+  std::vector<std::size_t> row_begin_;      // height + 1
+  std::vector<std::int64_t> first_active_;  // height + 1
 };
 
 // The windows of the pixels first.x <= x < first.x + width, first.y <= y < first.y + height together, grown by kGrowth:

@@ -70,8 +70,8 @@ BoundaryIntegral::BoundaryIntegral(const Kernel& kernel) : kernel_(kernel) {
   per_length_ = kernel.k_max() * (kernel.K_error() + kernel.k_max() * position_error_) +
                 kernel.K_max() * (kernel.k_error() + kernel.slope_max() * position_error_) +
                 8 * kUnit * kernel.k_max() * kernel.K_max() + line_remainder_;
-  // Between a knot and a cut that misses it the neighbour's polynomial is used, over at most position_error_ in y: k is off
-  // by its jump there (0 but for rounding at most knots), K is continuous.
+  // Between a knot and a cut that misses it the neighbour's polynomial is used, over at most position_error_ in y: k is
+  // off by its jump there (0 but for rounding at most knots), K is continuous.
   per_cut_ = kernel.K_max() * position_error_ *
              (kernel.jump_max() + 2 * kernel.k_error() + 2 * kernel.slope_max() * position_error_);
 }
@@ -143,24 +143,25 @@ void BoundaryIntegral::add_segment_piece(const Segment& s, double from, double t
 // Two ways to the other coordinate, both free of cancellation:
 //  - near (R <= 4 W, W the filter's radius): v runs relative to the circle's centre, other = c + side sqrt((R-v)(R+v)).
 //    Coordinates are at most R + sqrt(2) W < 6 W, four roundings: below 24 u W.
-//  - far: v runs relative to the pixel's centre, and other solves a^2 - 2 c a + q = 0 with q = v^2 - 2 c_v v - power: the
+//  - far: v runs relative to the pixel's centre, and other solves a^2 - 2 c a + q = 0 with q = v^2 - 2 c_v v - power:
+//  the
 //    root of larger magnitude by the formula, the other one as q over it. q errs by at most
 //    u (3 v^2 + 4 |c_v v| + 3 |power|), where a circle that meets the window has |power| <= sqrt(2) W (2 R + sqrt(2) W)
-//    and |c_v| <= R + W: below u (13 W^2 + 12.5 R W) < 16 u R W. Where the root lies in the window, the denominator is at
-//    least sqrt(2) R - W > 1.1 R: below 16 u W, and 4 u W for the division and the square root.
+//    and |c_v| <= R + W: below u (13 W^2 + 12.5 R W) < 16 u R W. Where the root lies in the window, the denominator is
+//    at least sqrt(2) R - W > 1.1 R: below 16 u W, and 4 u W for the division and the square root.
 struct BoundaryIntegral::ArcFrame {
   const Circle& circle;
-  bool upright;       // y runs (right and left quarters)
-  double side;        // +1: right or lower (towards +x, +y), -1: left or upper
+  bool upright;  // y runs (right and left quarters)
+  double side;   // +1: right or lower (towards +x, +y), -1: left or upper
   bool near;
-  bool tiny;          // the antiderivative is taken from the circle's centre: see add(const Circle&)
+  bool tiny;  // the antiderivative is taken from the circle's centre: see add(const Circle&)
   double c_run, c_other, rest_run, rest_other;
   // Where the quarter begins and ends, with the other coordinate there, shared with its neighbours bit for bit.
   double v0, v1, other0, other1;
 
   double run(double v) const { return near ? c_run + v : v; }
   double relative(double v) const { return near ? v : v - c_run; }  // to the circle's centre
-  double offset(double v) const {                                    // other coordinate relative to the centre
+  double offset(double v) const {                                   // other coordinate relative to the centre
     const double beta = relative(v);
     return side * std::sqrt(std::max(0.0, (circle.radius - beta) * (circle.radius + beta)));
   }
@@ -180,9 +181,9 @@ struct BoundaryIntegral::ArcFrame {
 
 void BoundaryIntegral::add(const Circle& circle) {
   const double r = kernel_.radius(), radius = circle.radius;
-  // Near, and tiny: K(x) may be replaced by the integral of k from the circle's centre to x, since k(y) dy integrates to
-  // nothing around a closed curve. Both factors then shrink with the circle, and so does the error: relative accuracy
-  // holds down to any radius.
+  // Near, and tiny: K(x) may be replaced by the integral of k from the circle's centre to x, since k(y) dy integrates
+  // to nothing around a closed curve. Both factors then shrink with the circle, and so does the error: relative
+  // accuracy holds down to any radius.
   const bool near = radius <= 4 * r, tiny = radius <= r / 8;
   const double leg = radius * 0.70710678118654752440;
   // The four corners between quarters, each computed once, so that neighbouring quarters meet exactly.
@@ -191,7 +192,8 @@ void BoundaryIntegral::add(const Circle& circle) {
   } corner[2][2];
   for (int sx = 0; sx < 2; ++sx) {
     for (int sy = 0; sy < 2; ++sy) {
-      const ArcFrame arc{circle, true, sx == 0 ? -1.0 : 1.0, near, tiny, circle.center.y, circle.center.x, 0, 0, 0, 0, 0, 0};
+      const ArcFrame arc{circle, true, sx == 0 ? -1.0 : 1.0, near, tiny, circle.center.y, circle.center.x, 0, 0, 0, 0,
+                         0,      0};
       const double y = (near ? 0 : circle.center.y) + (sy == 0 ? -leg : leg);
       corner[sx][sy] = {near ? arc.offset(y) : arc.other_inside(y), y};
     }
@@ -216,8 +218,8 @@ void BoundaryIntegral::add_arc(const ArcFrame& arc) {
   if (arc.tiny && !arc.upright) from = arc.v0;  // the centred antiderivative does not vanish left of the support
   if (!(from < to)) return;
   cuts_.assign({from, to});
-  // Right of the support nothing may be cut: there a piece counts by its ends alone, and far out on a large circle these
-  // are not known well enough to tell K(y) = 0 from a little more.
+  // Right of the support nothing may be cut: there a piece counts by its ends alone, and far out on a large circle
+  // these are not known well enough to tell K(y) = 0 from a little more.
   const double last_cut = arc.upright || arc.tiny ? to : std::min(to, run_knot(r));
   const auto cut = [&](double v) {
     if (v > from && v <= last_cut && v < to) cuts_.push_back(v);
@@ -320,8 +322,9 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
     const double k_bound = kernel_.k_on_ellipse(py, arc.upright ? rho_run : rho_other);
     double K_bound = 0;
     if (arc.tiny) {
-      // The integral of k from the centre to x runs along the real axis to a knot or to the piece's middle, at most R, and
-      // from there to x inside the disk around other_mid or the ellipse: at most sqrt(2) R + R, |x - centre| <= sqrt(2) R.
+      // The integral of k from the centre to x runs along the real axis to a knot or to the piece's middle, at most R,
+      // and from there to x inside the disk around other_mid or the ellipse: at most sqrt(2) R + R, |x - centre| <=
+      // sqrt(2) R.
       const double slope = px < 0 || px >= kernel_.pieces()
                                ? kernel_.k_max()
                                : std::max(kernel_.k_max(), kernel_.k_on_ellipse(px, arc.upright ? rho_other : rho_run));
@@ -364,8 +367,8 @@ void BoundaryIntegral::add_arc_piece(const ArcFrame& arc, double from, double to
   other_ += remainder;
   const double length = 2 * half;  // |dy| <= |dv| on every quarter
   if (arc.tiny) {
-    // The term's error, relative to its scale: k to k_error(), the centred integral to that and 64 roundings, the point to
-    // 8 roundings of the radius; positions of knots likewise.
+    // The term's error, relative to its scale: k to k_error(), the centred integral to that and 64 roundings, the point
+    // to 8 roundings of the radius; positions of knots likewise.
     const double k_relative = kernel_.k_error() / kernel_.k_max();
     other_ += length * scale * (3 * k_relative + 64 * kUnit) +
               length * radius * kernel_.k_max() * kernel_.slope_max() * (8 * kUnit * radius + position);

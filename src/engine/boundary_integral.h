@@ -36,16 +36,16 @@ class BoundaryIntegral {
   double delta_K(const Circle& c, double xi) const;
 
   const Kernel& kernel_;
-  int line_nodes_;          // enough for straight pieces, remainder line_remainder_ per unit of |dy|
+  int line_nodes_;  // enough for straight pieces, remainder line_remainder_ per unit of |dy|
   double line_remainder_;
-  double position_error_;   // of a computed point on a curve, pixels
-  double per_length_;       // bound on the integrand's error, per unit of |dy|
-  double per_cut_;          // error of a cut that misses its knot by position_error_
+  double position_error_;  // of a computed point on a curve, pixels
+  double per_length_;      // bound on the integrand's error, per unit of |dy|
+  double per_cut_;         // error of a cut that misses its knot by position_error_
   std::vector<double> cuts_;
 
   Sum sum_;
-  double length_ = 0;     // total |dy| of integrated pieces
-  double other_ = 0;      // bounds that are not proportional to length
+  double length_ = 0;  // total |dy| of integrated pieces
+  double other_ = 0;   // bounds that are not proportional to length
   int cuts_made_ = 0;
 };
 

@@ -77,7 +77,8 @@ void CellSums::operator()(std::span<const double> x, std::span<const double> y, 
     }
   }
   for (std::size_t p = 0; p < side * side; ++p) {
-    if (needed[p] != 0) sums[p] = {fold(partial_.data() + p * 2 * kLanes), fold(partial_.data() + p * 2 * kLanes + kLanes)};
+    if (needed[p] != 0)
+      sums[p] = {fold(partial_.data() + p * 2 * kLanes), fold(partial_.data() + p * 2 * kLanes + kLanes)};
   }
 }
 

@@ -1,5 +1,6 @@
 // Weighted sums of one cell's samples for every pixel whose window touches the cell: the only place where samples are
-// weighed. The order of additions is fixed: eight interleaved partial sums per pixel, sample i in sum i mod 8, folded as
+// weighed. The order of additions is fixed: eight interleaved partial sums per pixel, sample i in sum i mod 8, folded
+// as
 // ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). So neither the SIMD width nor what else is computed changes a bit.
 #pragma once
 
@@ -26,8 +27,10 @@ class CellSums {
   // Pixels up to `reach` cells away in x and y can touch a cell: the filter's apron.
   CellSums(const Kernel& kernel, int reach);
 
-  // x, y: the cell's samples, from its corner; inside: 1 or 0. For each pixel at offset (dx, dy) from the cell, |dx|, |dy|
-  // <= reach, whose needed[(dy + reach) * side + dx + reach] is not 0, writes sums at the same place; side = 2 reach + 1.
+  // x, y: the cell's samples, from its corner; inside: 1 or 0. For each pixel at offset (dx, dy) from the cell, |dx|,
+  // |dy|
+  // <= reach, whose needed[(dy + reach) * side + dx + reach] is not 0, writes sums at the same place; side = 2 reach
+  // + 1.
   void operator()(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
                   std::span<const std::uint8_t> needed, std::span<WeightSum> sums, OwnCount& own);
 
@@ -36,10 +39,11 @@ class CellSums {
   int reach_;
   void weigh(std::span<const double> coordinate, std::vector<double>& weighed, std::vector<double>& weights);
 
-  // The coordinates of the chunk that kx_ and ky_ belong to: a pattern with the same points in every cell is weighed once.
+  // The coordinates of the chunk that kx_ and ky_ belong to: a pattern with the same points in every cell is weighed
+  // once.
   std::vector<double> weighed_x_, weighed_y_;
-  std::vector<double> offset_, kx_, ky_;           // weights of a chunk of samples, by pixel offset
-  std::vector<double> partial_;                    // eight sums of k, then eight of k f, by needed pixel
+  std::vector<double> offset_, kx_, ky_;  // weights of a chunk of samples, by pixel offset
+  std::vector<double> partial_;           // eight sums of k, then eight of k f, by needed pixel
 };
 
 }  // namespace moire

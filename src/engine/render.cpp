@@ -160,8 +160,8 @@ class Renderer {
     if (estimator_ == Estimator::ratio && k >= rho / 4) return {kf / k + 0.0, false};
     const CellRow& own_row = *rows[static_cast<std::size_t>(reach_)];
     const OwnCount& own = own_row.own[own_row.index(x)];
-    const double mean = own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples)
-                                        : inside_center({x, y});
+    const double mean =
+        own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples) : inside_center({x, y});
     return {mean + (kf - mean * k) / rho + 0.0, estimator_ == Estimator::ratio};
   }
 
@@ -236,7 +236,8 @@ void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::
   const double width = grid.width + 2.0 * filter.apron(), height = grid.height + 2.0 * filter.apron();
   const double samples = width * height * static_cast<double>(spp);
   if (samples > 0x1p53) {
-    throw Error(std::string(place), "an image of " + shortest(samples) + " samples; at most 2^53, so fewer pixels or samples");
+    throw Error(std::string(place),
+                "an image of " + shortest(samples) + " samples; at most 2^53, so fewer pixels or samples");
   }
   // Sums of side x side pixels for each cell, side rows of cells at a time: all of them for an edge along a row.
   const double side = 2.0 * filter.apron() + 1, bytes = side * side * side * width * sizeof(WeightSum);

@@ -16,7 +16,8 @@ namespace moire {
 enum class Estimator : std::uint8_t {
   ratio,           // sum k f / sum k; the control variate where sum k < rho / 4. Exact on flat windows.
   unnormalised,    // sum k f / rho: unbiased and linear, so that spectral theory applies; noisy on flat windows
-  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact on flat windows
+  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact on flat
+                   // windows
 };
 
 // The estimators by name; throws Error naming the nearest ones.
@@ -59,9 +60,9 @@ void for_each_rendered(const ActiveRows& rows, const Rendered& rendered, F&& f) 
 // filter's apron, or more than 8 GiB of sums for the rows of cells that a window spans. `place` is for the message.
 void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::string_view place);
 
-// `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default path
-// are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and filter.radius(),
-// and require_renderable() must have passed.
+// `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default
+// path are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and
+// filter.radius(), and require_renderable() must have passed.
 Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive = false);
 

@@ -42,8 +42,8 @@ struct CaseResult {
 // seed); samples_total, samples_evaluated, pixels_total, pixels_active, fallbacks; time_setup_ns, time_render_ns,
 // time_reference_ns, time_threads (wall times; cases that share a pattern or a reference repeat its time); the errors
 // over `active` and over `all` pixels; bias_sq_active and variance_active (over trials, in the last trial's row alone,
-// and only if every trial was run); reference_method, error_bound (guaranteed, absolute, the largest of the image), error_bound_rms,
-// reference_limited; status; the image files, relative to the folder of the results.
+// and only if every trial was run); reference_method, error_bound (guaranteed, absolute, the largest of the image),
+// error_bound_rms, reference_limited; status; the image files, relative to the folder of the results.
 CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, std::int64_t setup_ns,
                     const Truth& truth, bool exhaustive = false);
 

@@ -44,7 +44,8 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("every error names the place, the fault and what would be right") {
-    CHECK(mentions(message("thing:siz=3"), "here: thing \"thing\": parameter \"siz\" is not known; did you mean size?"));
+    CHECK(
+        mentions(message("thing:siz=3"), "here: thing \"thing\": parameter \"siz\" is not known; did you mean size?"));
     CHECK(mentions(message("thing:size=9"), "it must be 0.5 to 8"));
     CHECK(mentions(message("thing:size=nan"), "not a number"));
     CHECK(mentions(message("thing:size="), "not a number"));

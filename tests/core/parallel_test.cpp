@@ -15,7 +15,8 @@ TEST_SUITE("unit") {
       for (const std::size_t count : {0u, 1u, 7u, 1000u}) {
         for (const std::size_t grain : {1u, 16u}) {
           std::vector<std::atomic<int>> visits(count);
-          moire::parallel_for(count, [&](std::size_t i) { ++visits[i]; }, grain);
+          moire::parallel_for(
+              count, [&](std::size_t i) { ++visits[i]; }, grain);
           for (const auto& v : visits) CHECK(v == 1);
         }
       }
@@ -23,7 +24,10 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("an exception in a body reaches the caller") {
-    CHECK_THROWS_AS(moire::parallel_for(100, [](std::size_t i) { if (i == 37) throw std::runtime_error("x"); }),
+    CHECK_THROWS_AS(moire::parallel_for(100,
+                                        [](std::size_t i) {
+                                          if (i == 37) throw std::runtime_error("x");
+                                        }),
                     std::runtime_error);
   }
 }

@@ -19,10 +19,12 @@ TEST_SUITE("unit") {
         }
         const double want = degree % 2 != 0 ? 0 : 2.0 / (1 - double(degree) * degree);
         CAPTURE(degree);
-        // Nodes are right to half an ulp, and |T_d'| <= d^2: weighted by the rule, below d^2 2^-53; the cosine's own argument
-        // adds as much.
-        if (degree < 2 * n) CHECK(std::fabs(sum - want) <= (4 + 2.0 * degree * degree) * 0x1p-53);
-        else CHECK(std::fabs(sum - want) > 0.5);
+        // Nodes are right to half an ulp, and |T_d'| <= d^2: weighted by the rule, below d^2 2^-53; the cosine's own
+        // argument adds as much.
+        if (degree < 2 * n)
+          CHECK(std::fabs(sum - want) <= (4 + 2.0 * degree * degree) * 0x1p-53);
+        else
+          CHECK(std::fabs(sum - want) > 0.5);
       }
     }
   }

@@ -23,8 +23,8 @@ inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid 
   all.emplace_back("disk through lattice points", disk({16, 14}, 5, grid));
   all.emplace_back("small disk", disk({15.9, 14.1}, 0.2, grid));
   // One disk covers most of the image; three touch it exactly, two each other; tiny ones stand alone and on a corner.
-  all.emplace_back("disks", disks({16, 14, 13, 25, 26, 2, 4, 5, 2, 16, 27.5, 0.5, 17, 27.5, 0.5, 1.5, 1.5, 1e-3, 30, 2,
-                                   0.01, 2.25, 25.75, 1e-6, 29.3, 5.1, 0.2},
+  all.emplace_back("disks", disks({16,  14,  13,  25,   26, 2, 4,    5,    2,     16,   27.5, 0.5, 17, 27.5,
+                                   0.5, 1.5, 1.5, 1e-3, 30, 2, 0.01, 2.25, 25.75, 1e-6, 29.3, 5.1, 0.2},
                                   grid));
   all.emplace_back("board", board({.focal = 28, .principal = {16, 11}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
                                   {-3, 4, 1, 9}, grid));

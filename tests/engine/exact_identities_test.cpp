@@ -98,9 +98,9 @@ TEST_SUITE("unit") {
     }
   }
 
-  // Circles smaller than an ulp of their place, and circles whose corner between quarters, at 45 degrees, or whose extreme
-  // point lies within a few ulp of a pixel's side: pieces shorter than an ulp must go to the pixel that they are in. The
-  // first such circle, radius 4e-8 at (0.99999997298, -1.000000028), was off by 8e-10 of its area in all.
+  // Circles smaller than an ulp of their place, and circles whose corner between quarters, at 45 degrees, or whose
+  // extreme point lies within a few ulp of a pixel's side: pieces shorter than an ulp must go to the pixel that they
+  // are in. The first such circle, radius 4e-8 at (0.99999997298, -1.000000028), was off by 8e-10 of its area in all.
   TEST_CASE("tiny disks whose special points meet pixel sides sum to their area, radius 1e-20 to 0.06") {
     for (const char* text : {"box", "box:width=3", "tent", "mitchell"}) {
       const Filter filter(parse_spec(text, "test"));

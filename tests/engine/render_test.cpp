@@ -80,7 +80,8 @@ TEST_SUITE("unit") {
   TEST_CASE("a cut-out of a scene has the same values as the whole image there") {
     // The same geometry, seen from an image whose origin is elsewhere: patterns draw by absolute pixel, so only those
     // without a draw are compared.
-    const TestImage whole = scenes::disk({23.5, 20.25}, 14.25, {48, 40}), part = scenes::disk({23.5, 10.25}, 14.25, {48, 30});
+    const TestImage whole = scenes::disk({23.5, 20.25}, 14.25, {48, 40}),
+                    part = scenes::disk({23.5, 10.25}, 14.25, {48, 30});
     const Pattern pattern(PatternChoice(parse_spec("zaremba", "test")), 16, {});
     for (const Filter& filter : filter_catalogue()) {
       const ActiveRows a = enumerate(whole, filter.radius()), b = enumerate(part, filter.radius());
@@ -102,7 +103,8 @@ TEST_SUITE("unit") {
       const Pattern pattern(PatternChoice(parse_spec("random", "test")), 1, {1, trial});
       const Rendered r = render(scene, pattern, filter, Estimator::ratio, rows);
       fallbacks += r.fallbacks;
-      // sum k f / sum k with sum k >= rho / 4, or mean + (...) / rho: both bounded by 4 sum |k| / rho, |k| <= 1.16^2, 25 cells.
+      // sum k f / sum k with sum k >= rho / 4, or mean + (...) / rho: both bounded by 4 sum |k| / rho, |k| <= 1.16^2,
+      // 25 cells.
       for (const double v : r.value) CHECK(std::fabs(v) <= 4 * 25 * 1.35);
     }
     CHECK(fallbacks > 0);
@@ -132,9 +134,9 @@ TEST_SUITE("unit") {
 }
 
 TEST_SUITE("unit") {
-  // Of n independent samples in a pixel of exact coverage A the number inside is binomial: err^2 has mean A (1 - A) / n and
-  // variance (m4 - m2^2), m4 the binomial's fourth central moment over n^4. The pooled z over many pixels and trials is
-  // standard normal up to the sum's own skewness; |z| < 4 has a false-alarm rate of 6e-5 at a fixed seed.
+  // Of n independent samples in a pixel of exact coverage A the number inside is binomial: err^2 has mean A (1 - A) / n
+  // and variance (m4 - m2^2), m4 the binomial's fourth central moment over n^4. The pooled z over many pixels and
+  // trials is standard normal up to the sum's own skewness; |z| < 4 has a false-alarm rate of 6e-5 at a fixed seed.
   TEST_CASE("random points: the squared error of box pixels has the binomial's mean") {
     const Filter box(parse_spec("box", "test"));
     for (const auto& [name, scene] : {std::pair{"edge", scenes::edge({128.3, 127.1}, 97.3, {256, 256})},
@@ -163,10 +165,10 @@ TEST_SUITE("unit") {
     }
   }
 
-  // Samples independent and uniform over the cells that a window touches: the un-normalised estimator's mean is the exact
-  // value whatever the kernel's lobes do. Pixels share samples only over a few neighbours, so trials are the clusters: the
-  // mean over trials of the image's mean error, in units of its own standard error, is Student's t with 255 degrees of
-  // freedom; 4.2 has a false-alarm rate of 4e-5.
+  // Samples independent and uniform over the cells that a window touches: the un-normalised estimator's mean is the
+  // exact value whatever the kernel's lobes do. Pixels share samples only over a few neighbours, so trials are the
+  // clusters: the mean over trials of the image's mean error, in units of its own standard error, is Student's t with
+  // 255 degrees of freedom; 4.2 has a false-alarm rate of 4e-5.
   TEST_CASE("random points: the un-normalised estimator is unbiased, on flat windows too") {
     const TestImage scene = scenes::disk({15.7, 14.2}, 9.25, {32, 28});
     for (const char* text : {"tent", "catmull-rom", "lanczos"}) {
@@ -204,7 +206,8 @@ TEST_SUITE("unit") {
       CHECK(r.pixels == Pixels::active);
       CHECK(r.fallbacks == 0);
       double sum = 0;
-      for (std::size_t i = 0; i < r.value.size(); ++i) sum += (r.value[i] - truth.value[i]) * (r.value[i] - truth.value[i]);
+      for (std::size_t i = 0; i < r.value.size(); ++i)
+        sum += (r.value[i] - truth.value[i]) * (r.value[i] - truth.value[i]);
       return sum;
     };
     // Both lose what the other loses, to first order in the weight sum's noise: within a factor of 1.5 in square here.

@@ -134,8 +134,9 @@ TEST_SUITE("unit") {
     const auto gauss = [](long double sigma, long double radius, bool offset) {
       // Integral by erf, an independent route to the normalisation.
       const long double low = offset ? std::exp(-radius * radius / (2 * sigma * sigma)) : 0;
-      const long double integral = sigma * std::sqrt(2 * 3.14159265358979323846264338L) *
-                                       std::erf(radius / (sigma * std::sqrt(2.0L))) - 2 * radius * low;
+      const long double integral =
+          sigma * std::sqrt(2 * 3.14159265358979323846264338L) * std::erf(radius / (sigma * std::sqrt(2.0L))) -
+          2 * radius * low;
       return [=](long double x) { return (std::exp(-x * x / (2 * sigma * sigma)) - low) / integral; };
     };
     check("gaussian", gauss(0.5L, 1.5L, true));

@@ -1,29 +1,40 @@
-// One name, one type. All rooms share a namespace, and two types of one name in two headers need not meet in any file to
-// be a fault: the linker keeps one of their constructors, and a build without inlining crashes.
+// One name, one type. All rooms share a namespace, and two types of one name in two headers need not meet in any file
+// to be a fault: the linker keeps one of their constructors, and a build without inlining crashes.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace fs = std::filesystem;
 
 namespace {
 
-// Adds "name -> file" for each class, struct or enumeration that begins a line of the header; returns the names that
-// were there already, with both files.
+// The name of the type that a line begins to define, such as `struct Name {` or `class Name : public Base {`; "" for
+// other lines, declarations among them.
+std::string defined_type(std::string_view line) {
+  for (const std::string_view word : {"enum class ", "class ", "struct "}) {
+    if (!line.starts_with(word)) continue;
+    line.remove_prefix(word.size());
+    const std::size_t end = line.find_first_of(" :;<{");
+    return line.find('{') == std::string_view::npos ? "" : std::string(line.substr(0, end));
+  }
+  return "";
+}
+
+// Adds "name -> file" for each type that begins a line of the header; returns the names that were there already, with
+// both files.
 std::string add_types(const std::string& text, const std::string& file, std::map<std::string, std::string>& types) {
-  static const std::regex definition(R"((?:class|struct|enum class) (\w+)(?: final)?(?: :[^;{]*)? \{.*)");
   std::istringstream lines(text);
   std::string twice;
   for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (!std::regex_match(line, match, definition)) continue;
-    const auto [at, added] = types.emplace(match[1], file);
-    if (!added) twice += match[1].str() + ": " + at->second + ", " + file + "\n";
+    const std::string name = defined_type(line);
+    if (name.empty()) continue;
+    const auto [at, added] = types.emplace(name, file);
+    if (!added) twice += name + ": " + at->second + ", " + file + "\n";
   }
   return twice;
 }

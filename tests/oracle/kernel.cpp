@@ -59,8 +59,12 @@ Kernel::Kernel(std::string_view text) : inner_(6), line_rules_{Rule(6), Rule(9)}
       bool lowered;
     };
     // The table of presets in the filter's documentation, as w / 4 and such where a system gives it so.
-    for (const Preset& p : {Preset{"mitsuba", 0.5L, 2, true}, {"imagemagick", 0.5L, 2, false}, {"ospray", 0.5L, 1.5L, false},
-                            {"renderman", 0.5L, 1, false}, {"arnold", 0.5L, 1, false}, {"cycles", 0.375L, 2.25L, false},
+    for (const Preset& p : {Preset{"mitsuba", 0.5L, 2, true},
+                            {"imagemagick", 0.5L, 2, false},
+                            {"ospray", 0.5L, 1.5L, false},
+                            {"renderman", 0.5L, 1, false},
+                            {"arnold", 0.5L, 1, false},
+                            {"cycles", 0.375L, 2.25L, false},
                             {"oiio", 0.75L, 1.5L, false},
                             {"oiio-sharp", static_cast<long double>(std::sqrt(0.125)), 1, false}})
       if (given_text(spec, "preset", "none") == p.name) {
@@ -112,7 +116,8 @@ Kernel::Kernel(std::string_view text) : inner_(6), line_rules_{Rule(6), Rule(9)}
       shape_ = [r, pi](long double x) {
         const long double t = pi * x / r;
         return static_cast<long double>(0.35875) + static_cast<long double>(0.48829) * std::cos(t) +
-               static_cast<long double>(0.14128) * std::cos(2 * t) + static_cast<long double>(0.01168) * std::cos(3 * t);
+               static_cast<long double>(0.14128) * std::cos(2 * t) +
+               static_cast<long double>(0.01168) * std::cos(3 * t);
       };
     }
     polynomial_ = false;

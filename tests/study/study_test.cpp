@@ -210,9 +210,10 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("a list of disks is read row by row, over several lines and with whole numbers") {
-    const NamedScene scene = parse_scene("kind = \"disks\"\nwidth = 64\nheight = 32\ndisks = [\n  [10.5, 20.25, 0.3],\n"
-                                         "  [40, 20, 3],  # touches the next\n  [45.0, 20.0, 2.0],\n]\n",
-                                         "d.toml", "d");
+    const NamedScene scene = parse_scene(
+        "kind = \"disks\"\nwidth = 64\nheight = 32\ndisks = [\n  [10.5, 20.25, 0.3],\n"
+        "  [40, 20, 3],  # touches the next\n  [45.0, 20.0, 2.0],\n]\n",
+        "d.toml", "d");
     const StoredDoubles stored = scene.image.stored();
     REQUIRE(stored.size() == 1);
     CHECK(stored[0].first == "disks");

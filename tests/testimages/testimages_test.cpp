@@ -81,19 +81,21 @@ std::vector<Case> cases() {
   all.push_back({"disks, touching",
                  disks({32, 28, 5, 41, 40, 10, 23, 28, 4, 27.5, 34, 2.5, 32, 22.5, 0.5, 41, 29.75, 0.25}),
                  disks_inside});
-  all.push_back({"disks, far",
-                 disks({far + 5.25, -far + 5, 5, far + 15.25, -far + 5, 5, far + 10.25, -far + 0.5, 0.5}),
+  all.push_back({"disks, far", disks({far + 5.25, -far + 5, 5, far + 15.25, -far + 5, 5, far + 10.25, -far + 0.5, 0.5}),
                  disks_inside});
   all.push_back({"board, level", board({0.25, 0, -8, 0, 0.25, -8, 0, 0, 1}, {-7, 7, -7, 7}), board_inside});
-  all.push_back({"board, camera", board({.focal = 64, .principal = {32, 32}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
-                                        {-3, 4, 1, 9}), board_inside});
+  all.push_back(
+      {"board, camera",
+       board({.focal = 64, .principal = {32, 32}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3}, {-3, 4, 1, 9}),
+       board_inside});
   return all;
 }
 
 // The pixel of each case around which points are thrown.
 Pixel home(const Case& c) {
   const StoredDoubles s = c.scene.stored();
-  if (c.inside == edge_inside) return {static_cast<std::int64_t>(s[0].second[0]), static_cast<std::int64_t>(s[0].second[1])};
+  if (c.inside == edge_inside)
+    return {static_cast<std::int64_t>(s[0].second[0]), static_cast<std::int64_t>(s[0].second[1])};
   if (c.inside == disks_inside) {
     const std::vector<double>& d = s[0].second;
     return {static_cast<std::int64_t>(d[0] + d[2]), static_cast<std::int64_t>(d[1])};
@@ -139,7 +141,8 @@ TEST_SUITE("unit") {
       for (int i = 0; i < 2000; ++i) {
         const Pixel p{h.x + spread(random), h.y + spread(random)};
         // Anywhere, and on a grid of eighths, where lattice lines and rational edges pass exactly.
-        const double x = i % 2 != 0 ? unit(random) : eighth(random) / 8.0, y = i % 2 != 0 ? unit(random) : eighth(random) / 8.0;
+        const double x = i % 2 != 0 ? unit(random) : eighth(random) / 8.0,
+                     y = i % 2 != 0 ? unit(random) : eighth(random) / 8.0;
         check(p, x, y);
         // Walk along x to the boundary, by halving, and look at the doubles around it.
         double low = 0, high = std::nextafter(1.0, 0);
@@ -256,7 +259,8 @@ TEST_SUITE("unit") {
         }
         if (near) continue;
         // From the centre to the corner: 0.5 + p, in the pixel that holds it.
-        const Pixel at{h.x + static_cast<std::int64_t>(std::floor(p.x + 0.5)), h.y + static_cast<std::int64_t>(std::floor(p.y + 0.5))};
+        const Pixel at{h.x + static_cast<std::int64_t>(std::floor(p.x + 0.5)),
+                       h.y + static_cast<std::int64_t>(std::floor(p.y + 0.5))};
         const double x = p.x + 0.5 - std::floor(p.x + 0.5), y = p.y + 0.5 - std::floor(p.y + 0.5);
         CHECK(std::fabs(turns - (contains(c.scene, at, x, y) ? 1 : 0)) <= 1e-6);
       }
@@ -274,7 +278,8 @@ TEST_SUITE("unit") {
     CHECK(normal(270) == Vec2{0, -1});
     CHECK(normal(-90) == Vec2{0, -1});
     CHECK(normal(360e10) == Vec2{1, 0});
-    for (const double d : {45.0, 135.0, 225.0, 315.0, -45.0, 405.0}) CHECK(std::fabs(normal(d).x) == std::fabs(normal(d).y));
+    for (const double d : {45.0, 135.0, 225.0, 315.0, -45.0, 405.0})
+      CHECK(std::fabs(normal(d).x) == std::fabs(normal(d).y));
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> degrees(-720, 720);
     for (int i = 0; i < 5000; ++i) {
@@ -300,7 +305,8 @@ TEST_SUITE("unit") {
       const Quad y2 = y1 * cosq(t) + z * sinq(t), z2 = -y1 * sinq(t) + z * cosq(t);
       const Quad X = x1 * cosq(w) + z2 * sinq(w), Z = -x1 * sinq(w) + z2 * cosq(w);
       const Quad W = h[6] * Quad(p.x) + h[7] * Quad(p.y) + h[8];
-      const Quad u = (h[0] * Quad(p.x) + h[1] * Quad(p.y) + h[2]) / W, v = (h[3] * Quad(p.x) + h[4] * Quad(p.y) + h[5]) / W;
+      const Quad u = (h[0] * Quad(p.x) + h[1] * Quad(p.y) + h[2]) / W,
+                 v = (h[3] * Quad(p.x) + h[4] * Quad(p.y) + h[5]) / W;
       // The stored matrix is rounded: a few ulp of terms of size up to 2, divided by W.
       CHECK(static_cast<double>(fabsq(u - c.height * X / y2)) <= 1e-13);
       CHECK(static_cast<double>(fabsq(v - c.height * Z / y2)) <= 1e-13);
