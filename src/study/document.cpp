@@ -148,6 +148,17 @@ const std::string& text_of(const Node& node, std::string_view what) {
   throw Error(node.place, fmt::format("{} is {}; give a text in quotes", what, kind_name(node.kind)));
 }
 
+const std::string& name_of(const Node& node, std::string_view what) {
+  const std::string& name = text_of(node, what);
+  const bool bad =
+      std::any_of(name.begin(), name.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f' || c == '`'; });
+  if (bad) {
+    throw Error(node.place,
+                fmt::format("\"{}\" must be a name without line breaks, control characters or backquotes", what));
+  }
+  return name;
+}
+
 std::int64_t integer_of(const Node& node, std::string_view what, std::int64_t min, std::int64_t max) {
   if (node.kind != Node::Kind::integer) {
     throw Error(node.place,

@@ -37,4 +37,7 @@ double exact_number(const Node& node);
 const std::string& text_of(const Node& node, std::string_view what);
 std::int64_t integer_of(const Node& node, std::string_view what, std::int64_t min, std::int64_t max);
 
+// The text of a name, which goes into tables, reports and file names: without control characters and backquotes.
+const std::string& name_of(const Node& node, std::string_view what);
+
 }  // namespace moire

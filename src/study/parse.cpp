@@ -91,7 +91,7 @@ std::vector<NamedScene> parse_scene_table(const Node& table, const std::string& 
   if (path == nullptr) {
     const Node* kind = table.find("kind");
     const Node* named_by = name != nullptr ? name : kind;
-    return scenes_of(table, named_by != nullptr ? text_of(*named_by, named_by->key) : "", limit);
+    return scenes_of(table, named_by != nullptr ? name_of(*named_by, named_by->key) : "", limit);
   }
   for (const Node& member : table.items) {
     if (member.key != "file" && member.key != "name") {
@@ -113,7 +113,7 @@ std::vector<NamedScene> parse_scene_table(const Node& table, const std::string& 
   study_text += fmt::format("\n# {}\n{}", relative, text);
   const Node scene = parse_toml(text, full.string());
   const Node* own = name != nullptr ? name : scene.find("name");
-  return scenes_of(scene, own != nullptr ? text_of(*own, "name") : full.stem().string(), limit);
+  return scenes_of(scene, own != nullptr ? name_of(*own, "name") : full.stem().string(), limit);
 }
 
 std::vector<NamedScene> parse_scenes(const Node& root, const std::string& file, std::string& study_text) {
@@ -157,7 +157,7 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
   Study study;
   study.text = std::string(text);
   study.name = stem;
-  if (const Node* n = root.find("name")) study.name = text_of(*n, "name");
+  if (const Node* n = root.find("name")) study.name = name_of(*n, "name");
   if (const Node* n = root.find("seed")) {
     study.seed = static_cast<std::uint64_t>(integer_of(*n, "seed", 0, std::numeric_limits<std::int64_t>::max()));
   }

@@ -327,7 +327,7 @@ NamedScene parse_scene(std::string_view text, const std::string& file, const std
   const Node table = parse_toml(text, file);
   refuse_ranges(table);
   const Node* own = table.find("name");
-  return scenes_of(table, own != nullptr ? text_of(*own, "name") : name, 1).front();
+  return scenes_of(table, own != nullptr ? name_of(*own, "name") : name, 1).front();
 }
 
 }  // namespace moire

@@ -159,6 +159,11 @@ TEST_SUITE("cli") {
   }
 
   TEST_CASE("wrong sizes, kinds and texts are refused where they stand") {
+    const auto deep_key = [](int parts) {
+      std::string key = "a";
+      for (int i = 1; i < parts; ++i) key += ".a";
+      return key;
+    };
     const BadScene scenes[] = {
         {"", "1:1", "no kind"},
         {"kind = \"dsk\"\n", "1:8", "did you mean disk"},
@@ -171,6 +176,12 @@ TEST_SUITE("cli") {
         {"kind = \"disk", "1:", "this is not TOML"},
         {std::string("kind = \"disk\"\0", 14), "1:", "this is not TOML"},
         {"\xff\xfe", "1:1", "this is not TOML"},
+        // The parser would follow the dots by recursion, to the end of the stack.
+        {"kind = \"disk\"\n" + deep_key(100000) + " = 1\n", "2:130", "dotted parts"},
+        {"[" + deep_key(200000) + "]\n", "1:", "dotted parts"},
+        {"# " + deep_key(1000) + "\nkind = \"dsk\"\n", "2:8", "did you mean disk"},
+        {"kind = \"disk\"\nname = \"two\\nlines\"\n", "2:8", "line breaks"},
+        {"kind = \"disk\"\nname = \"a`b\"\n", "2:8", "backquotes"},
         {kDisk + "radios = 2\n", "6:1", "did you mean radius"},
         {kDisk + "\"new\\nline\" = 2\n", "6:1", "new\\nline"},
         {"kind = \"disk\"\nwidth = 8\nheight = 8\ncenter = [1, 1]\nradius = { from = 1, to = 2, step = 1 }\n", "5:10",
@@ -201,6 +212,11 @@ TEST_SUITE("cli") {
     check_refused({{"exact", edge, "-o", deep}, 3, {deep}});
     check_refused({{"render", edge, "--pattern", "random", "--spp", "4", "-o", deep}, 3, {deep}});
     check_refused({{"render", edge, "--pattern", "random", "--spp", "4", "--error", deep}, 3, {deep}});
+    check_refused({{"render", edge, "--pattern", "random", "--spp", "4", "-o", "a.exr", "--error", "a.exr"},
+                   2,
+                   {"--error", "two names"}});
+    const std::string long_name(300, 'n');
+    check_refused({{"run", long_name, "-o", folder / "out"}, 2, {"STUDY"}});
     check_refused({{"run", "quick", "-o", blocked}, 3, {blocked}});
     check_refused({{"run", "quick", "-o", blocked + "/out"}, 3, {blocked}});
     check_refused({{"run", "quick", "-o", "/proc/moire"}, 3, {"/proc/moire"}});
@@ -248,6 +264,14 @@ TEST_SUITE("cli") {
         {patterns + "seed = \"one\"\n" + scene, {":2:8", "whole number"}},
         {patterns + "trials = 1000000\n" + scene, {"more than 1000000 rows"}},
         {patterns + scene + scene, {"stands above"}},
+        {"name = \"two\\tcolumns\"\n" + patterns + scene, {":1:8", "control characters"}},
+        {patterns + "images = \"none\"\nspp = [16777216]\n[[scene]]\nkind = \"disk\"\nwidth = 1048576\nheight = "
+                    "1048576\ncenter = [1, 1]\n"
+                    "radius = 1\n",
+         {"at most 2^53"}},
+        {patterns + "filters = [\"tent:radius=16\"]\n[[scene]]\nkind = \"disk\"\nwidth = 1048576\nheight = 8\n"
+                    "center = [1, 1]\nradius = 1\n",
+         {"at most 8", "GiB"}},
         {patterns + "[[scene]]\nfile = \"none.toml\"\n", {":3:8", "none.toml"}},
         {patterns + "[[scene]]\nkind = \"disk\"\nwidth = 8\nheight = 8\ncenter = [1, 1]\nradius = { from = 0, to = 1, "
                     "step = 1 }\n",
