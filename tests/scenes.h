@@ -60,30 +60,21 @@ struct Camera {
   double height = 1, pitch = 20, yaw = 0, roll = 0;
 };
 
+inline Given camera_keys(const Camera& c) {
+  return {{"camera.focal", one(c.focal)},   {"camera.principal", list({c.principal.x, c.principal.y})},
+          {"camera.height", one(c.height)}, {"camera.pitch", one(c.pitch)},
+          {"camera.yaw", one(c.yaw)},       {"camera.roll", one(c.roll)}};
+}
+
 inline TestImage board(const Camera& c, std::vector<double> extent, Grid grid = {64, 64}) {
-  return {find_testimage("checkerboard", ""),
-          {{"camera.focal", one(c.focal)},
-           {"camera.principal", list({c.principal.x, c.principal.y})},
-           {"camera.height", one(c.height)},
-           {"camera.pitch", one(c.pitch)},
-           {"camera.yaw", one(c.yaw)},
-           {"camera.roll", one(c.roll)},
-           {"extent", list(std::move(extent))}},
-          grid,
-          "test"};
+  Given keys = camera_keys(c);
+  keys.emplace_back("extent", list(std::move(extent)));
+  return {find_testimage("checkerboard", ""), keys, grid, "test"};
 }
 
 // The same cameras over the whole plane, to the horizon.
 inline TestImage plane(const Camera& c, Grid grid = {64, 64}) {
-  return {find_testimage("checkerboard", ""),
-          {{"camera.focal", one(c.focal)},
-           {"camera.principal", list({c.principal.x, c.principal.y})},
-           {"camera.height", one(c.height)},
-           {"camera.pitch", one(c.pitch)},
-           {"camera.yaw", one(c.yaw)},
-           {"camera.roll", one(c.roll)}},
-          grid,
-          "test"};
+  return {find_testimage("checkerboard", ""), camera_keys(c), grid, "test"};
 }
 inline TestImage plane(std::vector<double> homography, Grid grid = {64, 64}) {
   return {find_testimage("checkerboard", ""), {{"homography", rows(std::move(homography), 3)}}, grid, "test"};
