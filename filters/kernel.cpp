@@ -12,11 +12,11 @@
 
 #include "core/dd_math.h"
 #include "core/double_double.h"
+#include "core/rounding.h"
 
 namespace moire {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kMaxDegree = 40;
 
 // Smallest degree whose truncation error is at most `tolerance` on every piece, and that error.

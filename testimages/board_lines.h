@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/rounding.h"
 #include "curve/polygon.h"
 #include "testimages/homography.h"
 
@@ -26,7 +27,6 @@ struct BoardLine {
   double constant_error;  // of c, from cancellation in double-double
   // Bound on the error of plane.at() at points up to (ax, ay) away.
   double doubt(double ax, double ay) const {
-    constexpr double kUnit = 0x1p-53;
     return 6 * kUnit * (std::fabs(plane.a) * ax + std::fabs(plane.b) * ay + std::fabs(plane.c)) + constant_error;
   }
 };

@@ -1,4 +1,5 @@
 #include "testimages/board_squares.h"
+#include "core/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 namespace moire {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 using Row = LocalHomography::Row;
 
 // Bound on the rounding of a row's value at a point.

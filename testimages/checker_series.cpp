@@ -8,13 +8,13 @@
 #include <cmath>
 #include <vector>
 
+#include "core/rounding.h"
 #include "core/sum.h"
 #include "curve/quadrature.h"
 
 namespace moire {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kMaxTerms = 16;
 // Beyond so many squares from the origin the ends of a side, right to 2^-98 or so, no longer tell single squares apart.
 constexpr double kFarthest = 0x1p40;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/expansion.h"
+#include "core/rounding.h"
 #include "testimages/board_squares.h"
 #include "testimages/checker_series.h"
 #include "testimages/homography.h"
@@ -16,7 +17,6 @@
 namespace moire {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr Param kParams[] = {
     numbers("homography", false, "none: a camera", "3 x 3, pixels (x, y, 1) to the plane's (U, V, W)"),
     numbers("extent", false, "the whole plane", "[u0, u1, v0, v1], the board's sides in squares"),

@@ -4,14 +4,13 @@
 
 #include "core/dd_math.h"
 #include "core/expansion.h"
+#include "core/rounding.h"
 #include "curve/polygon.h"
 #include "testimages/scene_args.h"
 #include "testimages/testimage.h"
 
 namespace moire {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 constexpr Param kParams[] = {
     numbers("through", true, "", "a point of the edge, [x, y] in pixels"),

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/rounding.h"
 #include "curve/quadrature.h"
 
 namespace moire {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 // Quadrature remainders are pushed below this share of the integrand's scale: well under rounding.
 constexpr double kRemainder = 0x1p-57;
 constexpr double kRhos[] = {1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 40.0};
@@ -144,8 +144,7 @@ void BoundaryIntegral::add_segment_piece(const Segment& s, double from, double t
 //  - near (R <= 4 W, W the filter's radius): v runs relative to the circle's centre, other = c + side sqrt((R-v)(R+v)).
 //    Coordinates are at most R + sqrt(2) W < 6 W, four roundings: below 24 u W.
 //  - far: v runs relative to the pixel's centre, and other solves a^2 - 2 c a + q = 0 with q = v^2 - 2 c_v v - power:
-//  the
-//    root of larger magnitude by the formula, the other one as q over it. q errs by at most
+//    the root of larger magnitude by the formula, the other one as q over it. q errs by at most
 //    u (3 v^2 + 4 |c_v v| + 3 |power|), where a circle that meets the window has |power| <= sqrt(2) W (2 R + sqrt(2) W)
 //    and |c_v| <= R + W: below u (13 W^2 + 12.5 R W) < 16 u R W. Where the root lies in the window, the denominator is
 //    at least sqrt(2) R - W > 1.1 R: below 16 u W, and 4 u W for the division and the square root.

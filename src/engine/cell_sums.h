@@ -1,7 +1,6 @@
 // Weighted sums of one cell's samples for every pixel whose window touches the cell: the only place where samples are
 // weighed. The order of additions is fixed: eight interleaved partial sums per pixel, sample i in sum i mod 8, folded
-// as
-// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). So neither the SIMD width nor what else is computed changes a bit.
+// as ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). So neither the SIMD width nor what else is computed changes a bit.
 #pragma once
 
 #include <cstdint>

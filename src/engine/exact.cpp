@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "core/rounding.h"
 #include "core/sum.h"
 #include "engine/boundary_integral.h"
 
@@ -35,7 +36,6 @@ class PixelIntegrator {
  private:
   // A box filter's value from the integral over its window: k(x) k(y) is constant there.
   Exact weighed(const BoxIntegral& box) const {
-    constexpr double kUnit = 0x1p-53;
     const double k = kernel_.k(0), weight = k * k;
     const double weight_error = 2.1 * k * kernel_.k_error() + 3 * kUnit * weight;
     return {box.value * weight,

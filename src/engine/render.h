@@ -16,8 +16,7 @@ namespace moire {
 enum class Estimator : std::uint8_t {
   ratio,           // sum k f / sum k; the control variate where sum k < rho / 4. Exact on flat windows.
   unnormalised,    // sum k f / rho: unbiased and linear, so that spectral theory applies; noisy on flat windows
-  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact on flat
-                   // windows
+  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact where flat
 };
 
 // The estimators by name; throws Error naming the nearest ones.
