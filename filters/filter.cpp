@@ -1,6 +1,7 @@
 // The catalogue of filters, built from the list in CMakeLists.txt.
 #include "filters/filter.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,6 +25,25 @@ std::string owner(std::string_view name) { return "filter \"" + std::string(name
 }  // namespace
 
 std::span<const FilterInfo* const> filters() { return kFilters; }
+
+std::vector<std::string> filter_variants() {
+  std::vector<std::string> texts;
+  for (const FilterInfo* info : filters()) {
+    if (std::any_of(info->params.begin(), info->params.end(), [](const Param& p) { return p.required; })) continue;
+    const std::string name(info->name);
+    texts.push_back(name);
+    for (const Param& p : info->params) {
+      if (p.kind != Param::Kind::choice) continue;
+      for (std::size_t from = 0; from <= p.choices.size();) {
+        const std::size_t to = std::min(p.choices.find('|', from), p.choices.size());
+        const std::string_view value = p.choices.substr(from, to - from);
+        if (value != p.text) texts.push_back(name + ":" + std::string(p.name) + "=" + std::string(value));
+        from = to + 1;
+      }
+    }
+  }
+  return texts;
+}
 
 const FilterInfo& find_filter(std::string_view name, std::string_view place) {
   std::vector<std::string_view> known;

@@ -41,6 +41,10 @@ struct FilterInfo {
 // Every filter of the program, in the order of filters/CMakeLists.txt.
 std::span<const FilterInfo* const> filters();
 
+// Every filter as it is without parameters, then with each other value of each of its choices (presets, windows): what
+// a list of all filters means. Filters that need a file are left out.
+std::vector<std::string> filter_variants();
+
 // Throws Error naming the nearest filters.
 const FilterInfo& find_filter(std::string_view name, std::string_view place);
 
