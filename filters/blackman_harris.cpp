@@ -1,39 +1,37 @@
 // Blackman-Harris filter: the four-term cosine window used as a kernel, as renderers do.
 //
-// Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66(1), 1978:
-// the minimum four-term window, side lobes below -92 dB. At a width of 4 pixels it is a partition of unity.
-#include <cmath>
-#include <numbers>
-
-#include "core/dd_math.h"
+// Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66(1), 1978.
+// At a width of 4 pixels it is a partition of unity.
+#include "filters/cosine_sum.h"
+#include "filters/even_knots.h"
 #include "filters/filter.h"
+#include "filters/preset.h"
 
 namespace moire {
 namespace {
 
-constexpr Param kParams[] = {number("width", 4, 0.125, 32, "full width in pixels")};
-constexpr double kTerms[] = {0.35875, 0.48829, 0.14128, 0.01168};
+constexpr Param kParams[] = {
+    number("width", 4, 0.125, 32, "full width in pixels"),
+    choice("preset", "none", "none|oiio|cycles", "what a system means by its default width; in place of the width")};
+
+struct Preset {
+  std::string_view name;
+  double width;
+};
+// OpenImageIO 2.4's default width; Cycles doubles its width (scene/film.cpp), which Blender sets to 1.5 pixels.
+constexpr Preset kPresets[] = {{"oiio", 3}, {"cycles", 3}};
 
 struct BlackmanHarris {
   double radius;
-  explicit BlackmanHarris(const Args& a) : radius(a.number("width") / 2) {}
-
-  std::vector<double> knots() const { return {-radius, -radius / 2, 0, radius / 2, radius}; }
-  int degree() const { return -1; }
-
-  // cos(m pi x / R) by the Chebyshev recurrence in cos(pi x / R): |x| <= R, so one cosine of at most pi.
-  Dd shape(int, Dd x) const {
-    const Dd c = dd_cos_pi(x / Dd(radius));
-    const Dd c2 = Dd(2) * c * c - Dd(1), c3 = c * (Dd(2) * c2 - Dd(1));
-    return Dd(kTerms[0]) + Dd(kTerms[1]) * c + Dd(kTerms[2]) * c2 + Dd(kTerms[3]) * c3;
+  explicit BlackmanHarris(const Args& a) : radius(a.number("width") / 2) {
+    if (const Preset* p = find_preset(a, "blackman-harris", kPresets, {"width"})) radius = p->width / 2;
   }
 
-  // |cos(z)| <= cosh(Im z); a piece is half a radius long.
-  double ellipse_bound(int, double rho) const {
-    const double height = std::numbers::pi * 0.25 * (rho - 1 / rho) / 2;
-    double sum = 0;
-    for (int m = 0; m < 4; ++m) sum += kTerms[m] * std::cosh(m * height);
-    return sum;
+  std::vector<double> knots() const { return even_knots(radius, 2); }
+  int degree() const { return -1; }
+  Dd shape(int, Dd x) const { return cosine_sum(kBlackmanHarris, x / Dd(radius)); }
+  double ellipse_bound(int piece, double rho) const {
+    return cosine_sum_bound(kBlackmanHarris, Ellipse(knots(), piece, radius, rho).imaginary);
   }
 };
 

@@ -27,14 +27,15 @@ struct BSpline {
   Dd shape(int piece, Dd x) const {
     const int from_end = piece <= order / 2 ? piece : order - piece;
     const Dd s = Dd(radius()) - dd_abs(x);
-    Dd sum = 0.0, binomial = 1.0;
+    Dd sum = 0.0, binomial = 1.0, factorial = 1.0;
+    for (int i = 2; i <= order; ++i) factorial = factorial * Dd(i);
     for (int j = 0; j <= from_end; ++j) {
       Dd power = j % 2 == 0 ? binomial : -binomial;
       for (int i = 0; i < order; ++i) power = power * (s - Dd(j));
       sum = sum + power;
       binomial = binomial * Dd(order + 1 - j) / Dd(j + 1);
     }
-    return sum;
+    return sum / factorial;
   }
   double ellipse_bound(int, double) const { return 0; }  // a polynomial: never asked
 };

@@ -22,6 +22,21 @@ constexpr auto kFilters = std::to_array<const FilterInfo*>({
 #undef MOIRE_ITEM
 
 std::string owner(std::string_view name) { return "filter \"" + std::string(name) + "\""; }
+
+// Pixels are divided by the integral: it must not be what is left of lobes that cancel.
+constexpr double kLeastShare = 0.01;
+
+// The integral of |k| of a normalised kernel, by 16 midpoints a piece: right to a few percent.
+double absolute_integral(const Kernel& kernel) {
+  constexpr int kPoints = 16;
+  double sum = 0;
+  for (int p = 0; p < kernel.pieces(); ++p) {
+    const double left = kernel.knots()[static_cast<std::size_t>(p)], step = 2 * kernel.half_length(p) / kPoints;
+    for (int i = 0; i < kPoints; ++i) sum += std::fabs(kernel.k_piece(p, left + (i + 0.5) * step)) * step;
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::span<const FilterInfo* const> filters() { return kFilters; }
@@ -58,7 +73,14 @@ Filter::Filter(const Spec& spec)
     : info_(&find_filter(spec.name, spec.place)),
       args_(owner(spec.name), info_->params, spec.given, spec.place),
       text_(spec.text),
-      kernel_(std::make_shared<const Kernel>(info_->make(args_))) {}
+      kernel_(std::make_shared<const Kernel>(info_->make(args_))) {
+  // Written so that what is not a number is refused too.
+  if (!(kernel_->integral() > 0 && absolute_integral(*kernel_) * kLeastShare <= 1)) {
+    throw Error(spec.place, owner(spec.text) + ": the kernel's integral is " + shortest(kernel_->integral()) +
+                                "; pixels are divided by it, so it must be positive and at least " +
+                                shortest(kLeastShare) + " of the integral of the kernel's absolute value");
+  }
+}
 
 int Filter::apron() const noexcept { return static_cast<int>(std::ceil(radius() - 0.5)); }
 

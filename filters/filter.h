@@ -51,7 +51,8 @@ const FilterInfo& find_filter(std::string_view name, std::string_view place);
 // A filter with checked parameters: a value, cheap to copy, immutable, shared freely between threads.
 class Filter {
  public:
-  explicit Filter(const Spec& spec);  // throws Error
+  // Throws Error, also for a kernel whose integral is not positive or below 1/100 of that of its absolute value.
+  explicit Filter(const Spec& spec);
   const std::string& text() const { return text_; }
   const FilterInfo& info() const { return *info_; }
   const Args& args() const { return args_; }

@@ -4,12 +4,12 @@
 // radius 3/2, offset. Other systems mean other filters by the same name.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "core/dd_math.h"
-#include "core/error.h"
+#include "filters/even_knots.h"
 #include "filters/filter.h"
+#include "filters/preset.h"
 
 namespace moire {
 namespace {
@@ -46,25 +46,15 @@ struct Gaussian {
 
   explicit Gaussian(const Args& a)
       : sigma(a.number("sigma")), radius(a.number("radius")), offset(a.text("cut") == "offset") {
-    const std::string_view name = a.text("preset");
-    if (name == "none") return;
-    if (a.given("sigma") || a.given("radius") || a.given("cut")) {
-      throw Error(a.place(), "filter \"gaussian\": a preset sets sigma, radius and cut; give the preset or these");
-    }
-    const auto it =
-        std::find_if(std::begin(kPresets), std::end(kPresets), [&](const Preset& p) { return p.name == name; });
-    sigma = it->sigma;
-    radius = it->radius;
-    offset = it->offset;
+    const Preset* p = find_preset(a, "gaussian", kPresets, {"sigma", "radius", "cut"});
+    if (p == nullptr) return;
+    sigma = p->sigma;
+    radius = p->radius;
+    offset = p->offset;
   }
 
   // Pieces of at most 3/2 sigma, where degree 17 reaches rounding.
-  std::vector<double> knots() const {
-    const int n = static_cast<int>(std::ceil(radius / (1.5 * sigma)));
-    std::vector<double> k;
-    for (int i = -n; i <= n; ++i) k.push_back(radius * i / n);
-    return k;
-  }
+  std::vector<double> knots() const { return even_knots(radius, static_cast<int>(std::ceil(radius / (1.5 * sigma)))); }
   int degree() const { return -1; }
 
   Dd shape(int, Dd x) const {

@@ -5,6 +5,7 @@
 // pixels from the kernel's centre. Half-open: k(x) = 0 for x < -radius and for x >= radius.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -13,7 +14,8 @@
 
 namespace moire {
 
-// What a plug-in gives: see FilterType in filter.h.
+// What a plug-in gives: see FilterType in filter.h. Neighbouring knots are at least 2^-30 of the radius apart, far more
+// than the rounding of a position.
 struct KernelShape {
   std::vector<double> knots;
   int degree = -1;
@@ -23,6 +25,16 @@ struct KernelShape {
 
 class Kernel {
  public:
+  // What holds on one piece, t = (x - middle) / half length running from -1 to 1 over it.
+  struct PieceBounds {
+    double k = 0, K = 0, slope = 0;  // largest |k|, |K| and |k'| per pixel, also 2^-40 beyond the piece's ends
+    double jump = 0;                 // the larger of the jumps of k at the piece's two ends
+    // Errors of k_at() and K_at() at the same t, and of k_piece() and K_piece() at the same x: fit, rounded
+    // coefficients, evaluation. The second are larger by what t_of() errs.
+    double k_error = 0, K_error = 0, k_error_at_x = 0, K_error_at_x = 0;
+    double t_error = 0;  // of t_of()
+  };
+
   explicit Kernel(const KernelShape& shape);
 
   double radius() const noexcept { return knots_.back(); }
@@ -40,6 +52,8 @@ class Kernel {
 
   // The piece that x lies in, -1 left of the support, pieces() right of it.
   int piece_of(double x) const noexcept;
+  // Whether x is within `distance` of an end of the piece; -1 <= piece <= pieces().
+  bool near_knot(int piece, double x, double distance) const noexcept;
   // The polynomials of one piece, also usable a little beyond its ends.
   double k_piece(int piece, double x) const noexcept;
   double K_piece(int piece, double x) const noexcept;
@@ -47,6 +61,16 @@ class Kernel {
   double k_on_ellipse(int piece, double rho) const noexcept;
   double K_on_ellipse(int piece, double rho) const noexcept;
   double half_length(int piece) const noexcept { return pieces_[static_cast<std::size_t>(piece)].half; }
+  // Where x lies in the piece: from -1 to 1.
+  double t_of(int piece, double x) const noexcept {
+    const Piece& p = pieces_[static_cast<std::size_t>(piece)];
+    return (x - p.mid) * p.inverse_half;
+  }
+  // out[i] = k or K on the piece at t[i]; for many points this is several times quicker than one by one.
+  void k_at(int piece, std::span<const double> t, double* out) const noexcept;
+  void K_at(int piece, std::span<const double> t, double* out) const noexcept;
+  // -1 <= piece <= pieces(): left and right of the support k = 0 and K = 0 or 1, without error.
+  const PieceBounds& bounds(int piece) const noexcept { return bounds_[static_cast<std::size_t>(piece + 1)]; }
 
   // Integral of the shape before normalisation.
   double integral() const noexcept { return integral_; }
@@ -67,9 +91,11 @@ class Kernel {
     std::size_t k_first, K_first;  // into coefficients_: degree_ + 1 of k, degree_ + 2 of K
   };
   double evaluate(std::size_t first, int degree, double t) const noexcept;
+  void evaluate(std::size_t first, int degree, std::span<const double> t, double* out) const noexcept;
 
   std::vector<double> knots_;
   std::vector<Piece> pieces_;
+  std::vector<PieceBounds> bounds_;  // of piece p at p + 1
   std::vector<double> coefficients_;
   int degree_ = 0;
   bool unit_box_ = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "study/columns.h"
 #include "study/scene_file.h"
 
 namespace moire {
@@ -21,7 +22,7 @@ std::string Reconstruction::label() const {
 
 Cases::Cases(const Table& rows) {
   for (const Row& row : rows) {
-    const std::string scene(scene_family(row.text("scene"))), pattern(row.text("pattern"));
+    const std::string scene(scene_family(row.text("scene"))), pattern(sampler_of(row));
     const Reconstruction kernel{std::string(row.text("filter")), std::string(row.text("estimator"))};
     const Cell* cell = row.find("spp");
     const auto* count = cell == nullptr ? nullptr : std::get_if<std::int64_t>(cell);

@@ -10,22 +10,16 @@
 
 #include "reports/cases.h"
 #include "reports/contrast.h"
+#include "reports/filter_comparison.h"
+#include "reports/filter_table.h"
+#include "reports/markdown_table.h"
+#include "study/columns.h"
 #include "study/scene_file.h"
 
 namespace moire {
 namespace {
 
 constexpr const char kNone[] = "-";
-
-// A name in a table cell.
-std::string code(std::string_view name) {
-  std::string out = "`";
-  for (const char c : name) {
-    if (c == '|') out += '\\';
-    out += c;
-  }
-  return out + "`";
-}
 
 std::string bracketed(const Row& row, const std::string& name, const char* format) {
   const double lo = row.number(name + "_lo"), hi = row.number(name + "_hi");
@@ -44,25 +38,32 @@ std::string slope_text(const Row* row) {
   return fmt::format("{:.3f}", row->number("slope")) + bracketed(*row, "slope", "{:.3f}");
 }
 
-// A table with one column per kernel.
+// A table with one column per kernel; of many kernels, with one line for each.
 void add_table(std::string& out, const std::string& corner, const std::vector<Reconstruction>& kernels,
                const std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>>& lines) {
-  out += "| " + corner + " |";
-  for (const Reconstruction& k : kernels) out += fmt::format(" {} |", code(k.label()));
-  out += "\n|:--|";
-  for (std::size_t i = 0; i < kernels.size(); ++i) out += ":--|";
-  out += "\n";
-  for (const auto& [head, cell] : lines) {
-    out += "| " + head + " |";
-    for (const Reconstruction& k : kernels) out += fmt::format(" {} |", cell(k));
-    out += "\n";
+  constexpr std::size_t kMostColumns = 6;
+  std::vector<std::vector<std::string>> table;
+  if (kernels.size() <= kMostColumns) {
+    table.push_back({corner});
+    for (const Reconstruction& k : kernels) table[0].push_back(markdown_code(k.label()));
+    for (const auto& [head, cell] : lines) {
+      table.push_back({head});
+      for (const Reconstruction& k : kernels) table.back().push_back(cell(k));
+    }
+  } else {
+    table.push_back({"filter \\ " + corner});
+    for (const auto& [head, cell] : lines) table[0].push_back(head);
+    for (const Reconstruction& k : kernels) {
+      table.push_back({markdown_code(k.label())});
+      for (const auto& [head, cell] : lines) table.back().push_back(cell(k));
+    }
   }
-  out += "\n";
+  out += markdown_table(table);
 }
 
 std::string list(const std::vector<std::string>& names) {
   std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + code(name);
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + markdown_code(name);
   return out;
 }
 
@@ -87,7 +88,7 @@ void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
 
   out += "## What was run\n\n";
   for (const std::string& scene : r.raw.scenes()) {
-    out += "- scene " + code(scene);
+    out += "- scene " + markdown_code(scene);
     std::set<std::string_view> lines;
     const Row* row = nullptr;
     for (const Row& x : rows) {
@@ -126,13 +127,13 @@ void add_contrast(std::string& out, const Summary& summary, const Report& r) {
   out += text;
   const std::vector<std::string> families = line_families(summary);
   for (const Reconstruction& kernel : r.slopes.kernels()) {
-    out += "| slope, " + code(kernel.label()) + " |";
-    for (const std::string& family : families) out += " " + code(family) + " |";
+    out += "| slope, " + markdown_code(kernel.label()) + " |";
+    for (const std::string& family : families) out += " " + markdown_code(family) + " |";
     out += "\n|:--|";
     for (std::size_t i = 0; i < families.size(); ++i) out += ":--|";
     out += "\n";
     for (const std::string& pattern : r.slopes.patterns()) {
-      out += "| " + code(pattern) + " |";
+      out += "| " + markdown_code(pattern) + " |";
       for (const std::string& family : families) {
         out += " " + slope_text(r.slopes.first(family, pattern, kernel)) + " |";
       }
@@ -165,7 +166,7 @@ void add_ranking(std::string& out, const Report& r) {
       "RMSE over active pixels (those that the scene's boundary may touch), full coverage = 1; `=` where the 95% "
       "interval meets that of the best.\n\n";
   for (const std::string& scene : r.cases.scenes()) {
-    out += "### " + code(scene) + "\n\n";
+    out += "### " + markdown_code(scene) + "\n\n";
     std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (std::size_t rank = 0; rank < r.cases.patterns().size(); ++rank) {
       lines.emplace_back(std::to_string(rank + 1), [&r, &scene, rank](const Reconstruction& kernel) -> std::string {
@@ -173,7 +174,7 @@ void add_ranking(std::string& out, const Report& r) {
         if (rank >= order.size()) return kNone;
         const Row &row = *order[rank], &best = *order[0];
         const bool close = rank > 0 && end_or_value(row, "rmse_active_lo") <= end_or_value(best, "rmse_active_hi");
-        return code(row.text("pattern")) + fmt::format(" {:.2e}", row.number("rmse_active")) + (close ? " =" : "");
+        return markdown_code(sampler_of(row)) + fmt::format(" {:.2e}", row.number("rmse_active")) + (close ? " =" : "");
       });
     }
     add_table(out, "rank", r.cases.kernels(), lines);
@@ -189,7 +190,7 @@ std::string worst_text(const Report& r, const std::string& scene, const std::str
     if (std::isfinite(size) && (worst == nullptr || size > worst->number("max_abs_active"))) worst = row;
   }
   if (worst == nullptr || !std::isfinite(worst->number("max_x_active"))) return kNone;
-  const std::string line = worst->text("scene") == scene ? "" : " of " + code(worst->text("scene"));
+  const std::string line = worst->text("scene") == scene ? "" : " of " + markdown_code(worst->text("scene"));
   return fmt::format("({:.0f}, {:.0f}){}: got {:.6f}, exact {:.6f}", worst->number("max_x_active"),
                      worst->number("max_y_active"), line, worst->number("max_got_active"),
                      worst->number("max_want_active"));
@@ -205,7 +206,7 @@ std::string image_text(const Report& r, const std::string& scene, const std::str
 }
 
 void add_pattern(std::string& out, const Report& r, const std::string& pattern) {
-  out += "## " + code(pattern) + "\n\n";
+  out += "## " + markdown_code(pattern) + "\n\n";
   for (const std::string& scene : r.cases.scenes()) {
     const auto& kernels = r.cases.kernels();
     const bool any = std::any_of(kernels.begin(), kernels.end(), [&](const Reconstruction& k) {
@@ -213,7 +214,7 @@ void add_pattern(std::string& out, const Report& r, const std::string& pattern) 
                          [&](std::int64_t spp) { return r.cases.first(scene, pattern, k, spp) != nullptr; });
     });
     if (!any) continue;
-    out += "### " + code(pattern) + " on " + code(scene) + "\n\n";
+    out += "### " + markdown_code(pattern) + " on " + markdown_code(scene) + "\n\n";
     std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (const std::int64_t spp : r.cases.spp()) {
       lines.emplace_back(std::to_string(spp), [&, spp](const Reconstruction& k) {
@@ -232,6 +233,16 @@ void add_pattern(std::string& out, const Report& r, const std::string& pattern) 
     }
     add_table(out, "samples per pixel", kernels, lines);
   }
+}
+
+// The kernels themselves.
+void add_filters(std::string& out, const Table& filters) {
+  if (filters.empty()) return;
+  auto lines = filter_cells(filters);
+  for (std::size_t i = 1; i < lines.size(); ++i) lines[i][0] = markdown_code(lines[i][0]);
+  out += "### The filters themselves\n\n" + markdown_table(lines);
+  for (const ColumnMeaning& column : filter_columns()) out += "- " + column.head + ": " + column.meaning + "\n";
+  out += "\n";
 }
 
 void add_notes(std::string& out, const Summary& summary, const Report& r) {
@@ -258,19 +269,22 @@ void add_notes(std::string& out, const Summary& summary, const Report& r) {
     if (row.text("left_out").empty()) continue;
     if (first) out += "- Sample counts left out of slopes:\n";
     first = false;
-    out += "  - " + code(row.text("pattern")) + " on " + code(row.text("scene")) + ", " + code(row.text("filter")) +
-           ": " + std::string(row.text("left_out")) + "\n";
+    out += "  - " + markdown_code(sampler_of(row)) + " on " + markdown_code(row.text("scene")) + ", " +
+           markdown_code(row.text("filter")) + ": " + std::string(row.text("left_out")) + "\n";
   }
 }
 
 }  // namespace
 
-std::string markdown_report(std::string_view study_name, const Table& rows, const Summary& summary) {
+std::string markdown_report(std::string_view study_name, const Table& rows, const Summary& summary,
+                            const Table& filters) {
   const Cases raw(rows), cases(summary.rows), slopes(summary.slopes);
   const Report report{raw, cases, slopes, cases.spp().empty() ? 0 : cases.spp().back()};
   std::string out = "# " + std::string(study_name) + "\n\n";
   if (rows.empty()) return out + "No rows.\n";
   add_contrast(out, summary, report);
+  out += filter_comparison(summary);
+  add_filters(out, filters);
   if (!summary.rows.empty()) add_ranking(out, report);
   add_what_was_run(out, rows, report);
   for (const std::string& pattern : cases.patterns()) add_pattern(out, report, pattern);

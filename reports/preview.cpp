@@ -16,11 +16,6 @@ using Colour = std::array<double, 3>;
 // Moreland 2009, section 5: end colours of about equal lightness, and the neutral one between.
 constexpr Rgb kNegative{59, 76, 192}, kNeutral{221, 221, 221}, kPositive{180, 4, 38};
 
-double linear_of(std::uint8_t srgb) {
-  const double v = srgb / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 // CIE 1976 L*a*b* relative to the white of sRGB, D65; the matrix is that of IEC 61966-2-1.
 constexpr double kToXyz[3][3] = {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
 constexpr double kFromXyz[3][3] = {{3.2406, -1.5372, -0.4986}, {-0.9689, 1.8758, 0.0415}, {0.0557, -0.2040, 1.0570}};
@@ -33,7 +28,7 @@ Colour times(const double (&m)[3][3], const Colour& v) {
 }
 
 Colour lab(const Rgb& rgb) {
-  const Colour xyz = times(kToXyz, {linear_of(rgb[0]), linear_of(rgb[1]), linear_of(rgb[2])});
+  const Colour xyz = times(kToXyz, {linear_of_srgb8(rgb[0]), linear_of_srgb8(rgb[1]), linear_of_srgb8(rgb[2])});
   Colour f{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double t = xyz[i] / kWhite[i];
@@ -74,6 +69,11 @@ std::uint8_t srgb8(double linear) {
   const double v = std::clamp(linear, 0.0, 1.0);
   const double coded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::floor(255 * coded + 0.5));
+}
+
+double linear_of_srgb8(std::uint8_t code) {
+  const double v = code / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
 Rgb diverging_colour(double value) {

@@ -18,6 +18,8 @@ inline constexpr Rgb kNanColour{255, 0, 255};
 
 // The sRGB transfer function, IEC 61966-2-1: linear [0, 1] to the nearest of 0..255; values outside are clipped.
 std::uint8_t srgb8(double linear);
+// Its inverse: the linear value that 0..255 stands for.
+double linear_of_srgb8(std::uint8_t code);
 
 // The diverging map's colour at `value` in [-1, 1] (beyond: the ends): blue for negative, neutral light grey at 0, red
 // for positive. Control colours from Moreland, "Diverging color maps for scientific visualization", ISVC 2009, safe for

@@ -5,29 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "reports/cases.h"
 #include "reports/contrast.h"
+#include "reports/text_table.h"
+#include "study/columns.h"
 
 namespace moire {
 namespace {
 
-// A cell's text, and the number that competes for best in its column (NaN: does not).
-struct Entry {
-  std::string text;
-  double value = 0;
-};
+constexpr std::size_t kWidth = 110;  // of running text, in characters
 
-// Line by line, the first line the header.
-using Lines = std::vector<std::vector<Entry>>;
-
-Entry error_entry(const Row* row) {
+TextEntry error_entry(const Row* row) {
   const double rmse = row == nullptr ? std::nan("") : row->number("rmse_active");
   if (!std::isfinite(rmse)) return {"-", std::nan("")};
   return {fmt::format("{:.2e}{}", rmse, row->flag("reference_limited") ? "~" : ""), rmse};
 }
 
-Entry slope_entry(const Row* row) {
+TextEntry slope_entry(const Row* row) {
   const double slope = row == nullptr ? std::nan("") : row->number("slope");
   if (!std::isfinite(slope)) return {"-", std::nan("")};
   const double half = (row->number("slope_hi") - row->number("slope_lo")) / 2;
@@ -36,50 +33,60 @@ Entry slope_entry(const Row* row) {
           slope};
 }
 
-// Code points, which is columns for the names that occur.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
+// How the tables of a study are laid out: the patterns of each scene and filter under each other; with many filters,
+// the filters of each scene and pattern.
+struct Lines {
+  std::string title, corner;
+  std::vector<std::tuple<std::string, std::string, Reconstruction>> keys;  // head of the line, pattern, kernel
+};
 
-std::string set_out(Lines& lines, bool bold) {
-  const std::size_t columns = lines.front().size();
-  std::vector<std::size_t> widths(columns, 0);
-  std::vector<double> best(columns, std::nan(""));
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      widths[i] = std::max(widths[i], width(line[i].text) + 1);
-      best[i] = std::fmin(best[i], line[i].value);
+std::vector<Lines> lines_of(const Cases& cases) {
+  constexpr std::size_t kManyFilters = 6;
+  std::vector<Lines> all;
+  if (cases.kernels().size() <= std::max(kManyFilters, cases.patterns().size())) {
+    for (const Reconstruction& kernel : cases.kernels()) {
+      all.push_back({kernel.label(), "pattern", {}});
+      for (const std::string& pattern : cases.patterns()) all.back().keys.emplace_back(pattern, pattern, kernel);
+    }
+  } else {
+    for (const std::string& pattern : cases.patterns()) {
+      all.push_back({pattern, "filter", {}});
+      for (const Reconstruction& kernel : cases.kernels())
+        all.back().keys.emplace_back(kernel.label(), pattern, kernel);
     }
   }
+  return all;
+}
+
+// The ranking of filters at the largest sample count: for each pattern, filters by total error.
+std::string ranking(const Summary& summary, const Cases& cases, bool bold) {
+  if (summary.filters.empty()) return {};
+  const double none = std::nan("");
+  const auto largest = static_cast<double>(cases.spp().back());
   std::string text;
-  for (const auto& line : lines) {
-    std::string out = line[0].text + std::string(widths[0] - width(line[0].text), ' ');
-    for (std::size_t i = 1; i < columns; ++i) {
-      const bool is_best = line[i].value == best[i];
-      out += std::string(widths[i] - width(line[i].text), ' ');
-      out += is_best && bold ? "\x1b[1m" + line[i].text + "*\x1b[0m" : line[i].text + (is_best ? "*" : " ");
+  for (const std::string& pattern : cases.patterns()) {
+    TextLines lines{{{"filter", none}, {"total", none}, {"rank", none}, {"sampling", none}, {"rank", none}}};
+    for (const Row& row : summary.filters) {
+      if (sampler_of(row) != pattern || row.number("spp") != largest) continue;
+      const Reconstruction kernel{std::string(row.text("filter")), std::string(row.text("estimator"))};
+      const auto entry = [&](const char* name) {
+        return TextEntry{fmt::format("{:.2f}", row.number(name)), row.number(name)};
+      };
+      const auto rank = [&](const char* name) { return TextEntry{fmt::format("{:.0f}", row.number(name)), none}; };
+      lines.push_back({{kernel.label(), none},
+                       entry("relative_total"),
+                       rank("rank_total"),
+                       entry("relative_sampling"),
+                       rank("rank_sampling")});
     }
-    out.erase(out.find_last_not_of(' ') + 1);
-    text += "  " + out + "\n";
+    if (lines.size() < 3) continue;
+    text += fmt::format("filters over all scenes, {}, {} samples per pixel\n", pattern, cases.spp().back()) +
+            text_table(lines, bold) + "\n";
   }
-  return text;
-}
-
-// Lines of at most 110 characters, broken at blanks.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kWidth = 110;
-  std::string out;
-  for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kWidth) {
-      const std::size_t blank = text.rfind(' ', begin + kWidth);
-      end = blank != std::string::npos && blank > begin ? blank : std::min(text.find(' ', begin), end);
-    }
-    out += text.substr(begin, end - begin) + "\n";
-    begin = end + 1;
-  }
-  return out;
+  if (text.empty()) return text;
+  return text +
+         "total: image - box coverage; sampling: image - the filter's exact image; RMSE over all pixels, over that of "
+         "the\nscene's best filter, geometric mean over scenes\n\n";
 }
 
 }  // namespace
@@ -87,15 +94,15 @@ std::string wrapped(const std::string& text) {
 std::string terminal_tables(const Summary& summary, bool bold) {
   const Cases cases(summary.rows), slopes(summary.slopes);
   const double none = std::nan("");
-  std::string text = wrapped(slope_contrast(summary, ""));
+  std::string text = wrapped(slope_contrast(summary, ""), kWidth) + ranking(summary, cases, bold);
   for (const std::string& scene : cases.scenes()) {
-    for (const Reconstruction& kernel : cases.kernels()) {
-      Lines lines;
-      lines.push_back({{"pattern", none}});
+    for (const Lines& table : lines_of(cases)) {
+      TextLines lines;
+      lines.push_back({{table.corner, none}});
       for (const std::int64_t spp : cases.spp()) lines[0].push_back({std::to_string(spp), none});
       lines[0].push_back({"slope", none});
-      for (const std::string& pattern : cases.patterns()) {
-        std::vector<Entry> line{{pattern, none}};
+      for (const auto& [head, pattern, kernel] : table.keys) {
+        std::vector<TextEntry> line{{head, none}};
         bool any = false;
         for (const std::int64_t spp : cases.spp()) {
           const Row* row = cases.first(scene, pattern, kernel, spp);
@@ -105,7 +112,7 @@ std::string terminal_tables(const Summary& summary, bool bold) {
         line.push_back(slope_entry(slopes.first(scene, pattern, kernel)));
         if (any) lines.push_back(std::move(line));
       }
-      if (lines.size() > 1) text += scene + ", " + kernel.label() + "\n" + set_out(lines, bold) + "\n";
+      if (lines.size() > 1) text += scene + ", " + table.title + "\n" + text_table(lines, bold) + "\n";
     }
   }
   if (!text.empty())

@@ -5,6 +5,7 @@
 
 #include "core/rounding.h"
 #include "curve/polygon.h"
+#include "curve/sharp_polygon.h"
 #include "testimages/homography.h"
 
 namespace moire {
@@ -31,11 +32,18 @@ struct BoardLine {
   }
 };
 
-inline BoardLine board_line(const LocalHomography::Row& r, const LocalHomography::Row& w, double k, double sign) {
-  const Dd a = Dd(r.a) - two_prod(k, w.a), b = Dd(r.b) - two_prod(k, w.b), c = r.c - Dd(k) * w.c;
+// The same line for cutting, in double-double.
+inline SharpLine sharp_line(const LocalHomography::Row& r, const LocalHomography::Row& w, double k, double sign) {
+  const auto oriented = [sign](Dd x) { return sign < 0 ? -x : x; };
   // A product and a sum in double-double, 2^-102 with room to spare.
   const double rounding = 0x1p-98 * (std::fabs(r.c.hi) + std::fabs(k * w.c.hi));
-  return {{sign * a.value(), sign * b.value(), sign * c.value()}, r.c_error + std::fabs(k) * w.c_error + rounding};
+  return {oriented(Dd(r.a) - two_prod(k, w.a)), oriented(Dd(r.b) - two_prod(k, w.b)), oriented(r.c - Dd(k) * w.c),
+          r.c_error + std::fabs(k) * w.c_error + rounding};
+}
+
+inline BoardLine board_line(const LocalHomography::Row& r, const LocalHomography::Row& w, double k, double sign) {
+  const SharpLine l = sharp_line(r, w, k, sign);
+  return {{l.a.value(), l.b.value(), l.c.value()}, l.error};
 }
 
 }  // namespace moire

@@ -9,7 +9,12 @@ namespace {
 
 using Row = LocalHomography::Row;
 
-// Bound on the rounding of a row's value at a point.
+// The clipper's slots after the window's own. Rows and columns of squares take turns with two each: no polygon in use
+// has more of them for sides.
+enum Slot { kExtent = SharpClipper::kWindow, kBeyond = kExtent + 4, kRow, kColumn = kRow + 2 };
+static_assert(kColumn + 2 <= SharpClipper::kSlots);
+
+// Bound on the rounding of a row's value at a point, and of the point.
 double row_error(const Row& row, Vec2 p) {
   return 6 * kUnit * (std::fabs(row.a * p.x) + std::fabs(row.b * p.y) + std::fabs(row.c.hi)) + row.c_error;
 }
@@ -18,9 +23,10 @@ double row_error(const Row& row, Vec2 p) {
 struct Range {
   double low, high;
 };
-Range range(const Polygon& polygon, const Row& r, const Row& w, double low, double high) {
+Range range(const SharpPolygon& polygon, const Row& r, const Row& w, double low, double high) {
   Range out{HUGE_VAL, -HUGE_VAL};
-  for (const Vec2 p : polygon) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 p = polygon.at(i);
     const double W = w.a * p.x + w.b * p.y + w.c.value(), ew = row_error(w, p);
     // On the horizon (within rounding) the quotient has no bound but the board's.
     if (!(W > 4 * ew)) return {low, high};
@@ -36,27 +42,15 @@ Range range(const Polygon& polygon, const Row& r, const Row& w, double low, doub
 
 }  // namespace
 
-void BoardCutter::cut(const Polygon& in, const Row& r, const Row& w, double k, double sign, Polygon& out) {
-  const BoardLine l = board_line(r, w, k, sign);
-  clip(in, l.plane, out);
-  const double doubt = l.doubt(half_width_, half_width_);
-  // A line that stays clear of the polygon cuts nothing and errs in nothing.
-  bool clear = true;
-  for (const Vec2 p : in) clear &= l.plane.at(p) > doubt;
-  if (clear || in.empty()) return;
-  const double size = std::hypot(l.plane.a, l.plane.b);
-  // polygon.h: twice the rounding of the line's value, along its normal, plus 8 u of the window.
-  const double distance = size > 0 ? 2 * doubt / size : 4 * half_width_;
-  distance_ = std::max(distance_, std::min(distance, 4 * half_width_) + 8 * kUnit * half_width_);
-}
-
 BoardWindow::BoardWindow(const LocalHomography& l, const Extent& e, double h)
-    : local(l), extent(e), half_width(h), cutter(h), board(square(h)) {
-  Polygon next;
+    : local(l), extent(e), half_width(h), clipper(h), part(clipper.window()) {
+  SharpPolygon next;
+  int slot = kExtent;
   const auto keep = [&](const Row& r, double k, double sign) {
     if (!std::isfinite(k)) return;
-    cutter.cut(board, r, local.w, k, sign, next);
-    board.swap(next);
+    clipper.set_line(slot, sharp_line(r, local.w, k, sign));
+    clipper.split(part, slot++, &next, nullptr);
+    std::swap(part, next);
   };
   // In front of the camera, W >= 0, written as 0 - (-1) w. A finite board is there by itself: u0 W <= U <= u1 W.
   if (!std::isfinite(extent.u0)) keep({0, 0, 0.0}, -1, 1);
@@ -64,6 +58,7 @@ BoardWindow::BoardWindow(const LocalHomography& l, const Extent& e, double h)
   keep(local.u, extent.u1, -1);
   keep(local.v, extent.v0, 1);
   keep(local.v, extent.v1, -1);
+  for (std::size_t i = 0; i < part.size(); ++i) board.push_back(part.at(i));
 }
 
 double squares_met(const LocalHomography& local, const Polygon& polygon) {
@@ -106,66 +101,67 @@ double front_of(const LocalHomography& local, const Polygon& polygon, double squ
 void append_squares(BoardWindow& window, Boundary& out) {
   const auto& [u, v, w] = window.local;
   const Extent& extent = window.extent;
-  BoardCutter& cutter = window.cutter;
+  SharpClipper& clipper = window.clipper;
   double error = 0;  // of areas, square pixels
   // What is not resolved counts as half covered.
-  const auto unresolved = [&](const Polygon& part) {
+  const auto unresolved = [&](const SharpPolygon& part) {
+    SharpClipper::append(part, 0.5, out);
     double area = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      const Vec2 a = part[i], b = part[i + 1 < part.size() ? i + 1 : 0];
-      out.segments.push_back({a, b, 0.5});
+      const Vec2 a = part.at(i), b = part.next(i);
       area += 0.5 * (a.x * b.y - b.x * a.y);
     }
-    error += 0.5 * std::fabs(area) * (1 + 0x1p-40) + cutter.slack();
+    error += 0.5 * std::fabs(area) * (1 + 0x1p-40) + 12 * kUnit * window.half_width * window.half_width;
   };
 
-  Polygon strip, rest = window.board, cell, above, next;
-  if (!(squares_met(window.local, rest) <= kMaxCells)) {
-    const double nearest = front_of(window.local, rest, kMaxCellsOfMore);
-    const Row beyond{w.a, w.b, w.c - Dd(nearest), w.c_error};
-    cutter.cut(window.board, beyond, w, 0, -1, rest);
-    unresolved(rest);
-    cutter.cut(window.board, beyond, w, 0, 1, rest);
+  SharpPolygon rest = window.part, strip, above, cell, right_of;
+  if (!(squares_met(window.local, window.board) <= kMaxCells)) {
+    const double nearest = front_of(window.local, window.board, kMaxCellsOfMore);
+    clipper.set_line(kBeyond, sharp_line({w.a, w.b, w.c - Dd(nearest), w.c_error}, w, 0, 1));
+    clipper.split(window.part, kBeyond, &rest, &strip);
+    unresolved(strip);
   }
   const Range rows = range(rest, v, w, extent.v0, extent.v1);
-  if (!rest.empty()) {
-    const double first = std::floor(rows.low), last = std::floor(rows.high);
-    if (!(last - first < kMaxCells)) {
-      unresolved(rest);
+  const double first = std::floor(rows.low), last = std::floor(rows.high);
+  if (!(last - first < kMaxCells)) {
+    if (!rest.empty()) unresolved(rest);
+    rest.clear();
+  }
+  int cells = 0, turn = 0;
+  for (double l = first; l <= last && !rest.empty(); ++l) {
+    // Below line l + 1, and what remains above it; above the last row nothing does.
+    if (l < last) {
+      const int slot = kRow + (turn ^= 1);
+      clipper.set_line(slot, sharp_line(v, w, l + 1, 1));
+      clipper.split(rest, slot, &above, &strip);
     } else {
-      int cells = 0;
-      for (double l = first; l <= last && !rest.empty(); ++l) {
-        // Below line l + 1, and what remains above it.
-        cutter.cut(rest, v, w, l + 1, -1, strip);
-        cutter.cut(rest, v, w, l + 1, 1, above);
-        if (!strip.empty()) {
-          const Range columns = range(strip, u, w, extent.u0, extent.u1);
-          const double left = std::floor(columns.low), right = std::floor(columns.high);
-          if (!(right - left < kMaxCells - cells)) {
-            unresolved(strip);
-          } else {
-            cells += static_cast<int>(right - left) + 1;
-            for (double k = left; k <= right; ++k) {
-              if (!even_square(k, l)) continue;
-              cutter.cut(strip, u, w, k, 1, next);
-              cutter.cut(next, u, w, k + 1, -1, cell);
-              for (std::size_t i = 0; i < cell.size(); ++i) {
-                out.segments.push_back({cell[i], cell[i + 1 < cell.size() ? i + 1 : 0]});
-              }
-              error += 2 * cutter.distance() * (perimeter(cell) + 8 * cutter.distance());
-            }
-            // Slivers that were lost between squares: at most the neighbourhood of the strip's sides.
-            error += 2 * cutter.distance() * perimeter(strip);
-          }
-        } else {
-          error += cutter.slack();
-        }
-        rest.swap(above);
+      strip = rest;
+      above.clear();
+    }
+    std::swap(rest, above);
+    if (strip.empty()) continue;
+    const Range columns = range(strip, u, w, extent.u0, extent.u1);
+    const double left = std::floor(columns.low), right = std::floor(columns.high);
+    if (!(right - left < kMaxCells - cells)) {
+      unresolved(strip);
+      continue;
+    }
+    cells += static_cast<int>(right - left) + 1;
+    int column_turn = 0;
+    for (double k = left; k <= right && !strip.empty(); ++k) {
+      if (k < right) {
+        const int slot = kColumn + (column_turn ^= 1);
+        clipper.set_line(slot, sharp_line(u, w, k + 1, 1));
+        clipper.split(strip, slot, &right_of, &cell);
+      } else {
+        cell = strip;
+        right_of.clear();
       }
+      if (even_square(k, l)) SharpClipper::append(cell, 1, out);
+      std::swap(strip, right_of);
     }
   }
-  // And those of the board's own sides.
-  out.area_error += error + window.board_error();
+  out.area_error += error + clipper.area_error();
 }
 
 }  // namespace moire

@@ -5,7 +5,7 @@
 #include "core/dd_math.h"
 #include "core/expansion.h"
 #include "core/rounding.h"
-#include "curve/polygon.h"
+#include "curve/sharp_polygon.h"
 #include "testimages/scene_args.h"
 #include "testimages/testimage.h"
 
@@ -87,34 +87,33 @@ class Edge {
   }
 
   void boundary(Pixel origin, double half_width, Boundary& out) const {
-    const auto [c, far] = offset(origin, 0.5);
-    const HalfPlane inside{n_.x, n_.y, -c};
-    Polygon clipped;
-    clip(square(half_width), inside, clipped);
-    for (std::size_t i = 0; i < clipped.size(); ++i) {
-      out.segments.push_back({clipped[i], clipped[i + 1 < clipped.size() ? i + 1 : 0]});
-    }
-    // The signed distances of the corners err by at most 4 u (sum of their terms); the new vertices by twice that along
-    // the normal plus 4 u of the window (polygon.h). The edge is at most 2 sqrt(2) half widths long here.
-    const double size = std::hypot(n_.x, n_.y);
-    const double distance =
-        (8 * kUnit * ((std::fabs(n_.x) + std::fabs(n_.y)) * half_width + std::fabs(c)) + 2 * far) / size +
-        4 * kUnit * half_width;
-    out.area_error += 2 * distance * 2.83 * half_width;
+    const Offset c = exact_offset(origin, 0.5);
+    SharpClipper clipper(half_width);
+    SharpPolygon inside;
+    clipper.set_line(SharpClipper::kWindow, {n_.x, n_.y, -c.value, c.error});
+    clipper.split(clipper.window(), SharpClipper::kWindow, &inside, nullptr);
+    SharpClipper::append(inside, 1, out);
+    out.area_error += clipper.area_error();
   }
 
   StoredDoubles stored() const { return {{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}}; }
 
  private:
-  // n . (through - origin - (shift, shift)), rounded, and what double-double may have lost before: it has 100 bits of
-  // the products, which is nothing unless pixel and edge are far from each other's origin along the edge.
+  // n . (through - origin - (shift, shift)), and what double-double may have lost: it has 100 bits of the products,
+  // which is nothing unless pixel and edge are far from each other's origin along the edge.
   struct Offset {
-    double value, error;
+    Dd value;
+    double error;
   };
-  Offset offset(Pixel origin, double shift) const noexcept {
+  Offset exact_offset(Pixel origin, double shift) const noexcept {
     const Dd x = Dd(through_.x) - dd_from_integer(origin.x) - Dd(shift);
     const Dd y = Dd(through_.y) - dd_from_integer(origin.y) - Dd(shift);
-    return {(Dd(n_.x) * x + Dd(n_.y) * y).value(), 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi))};
+    return {Dd(n_.x) * x + Dd(n_.y) * y, 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi))};
+  }
+  // The same, the value rounded.
+  std::pair<double, double> offset(Pixel origin, double shift) const noexcept {
+    const Offset exact = exact_offset(origin, shift);
+    return {exact.value.value(), exact.error};
   }
 
   // The sign of n . (origin + p - through), exactly.

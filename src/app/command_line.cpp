@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/names.h"
+#include "measure/point_spectrum.h"
 #include "patterns/pattern.h"
 #include "reports/provenance.h"
 
@@ -39,6 +40,10 @@ class Words {
 
   void positional(const std::string& name, const std::string& about) {
     app_->add_option(name, text_[name], about)->type_name("");
+  }
+  // Any number of words, none included.
+  void positionals(const std::string& name, const std::string& about) {
+    app_->add_option(name, lists_[name], about)->type_name("");
   }
   // Without a fallback the value is "" when it is not given.
   void option(const std::string& name, const std::string& metavar, const std::string& about,
@@ -82,6 +87,7 @@ class Words {
   bool has(const std::string& name) const { return !text(name).empty(); }
   bool is_set(const std::string& name) const { return flags_.at(name); }
   const std::string& text(const std::string& name) const { return text_.at(name); }
+  const std::vector<std::string>& list(const std::string& name) const { return lists_.at(name); }
   const std::string& required(const std::string& name) const {
     if (!has(name)) throw Error(place(), fmt::format("{} is missing; see {} --help", name, place()));
     return text(name);
@@ -109,6 +115,7 @@ class Words {
 
   CLI::App* app_;
   std::map<std::string, std::string> text_;  // CLI11 keeps references to the values: a map leaves them in place
+  std::map<std::string, std::vector<std::string>> lists_;
   std::map<std::string, bool> flags_;
 };
 
@@ -162,6 +169,7 @@ Words render_words(CLI::App& app) {
   w.positional("SCENE", "a scene file (TOML)");
   w.option("--pattern", "P", "sampling pattern, NAME or NAME:key=value,...");
   w.option("--spp", "N", "samples per pixel, 1 to 16777216");
+  w.option("--layout", "L", "pixel: the pattern in each pixel; image: one set over all of them", "pixel");
   w.option("--filter", "F", "reconstruction filter, NAME or NAME:key=value,...", "box");
   w.option("--estimator", "E", "how samples become a pixel", "ratio");
   add_draw(w);
@@ -177,6 +185,7 @@ Command render_options(const Words& w) {
   options.scene = w.required("SCENE");
   options.pattern = w.required("--pattern");
   options.spp = w.integer("--spp", 1, kMaxSamples);
+  options.layout = w.required("--layout");
   options.filter = w.required("--filter");
   options.estimator = w.required("--estimator");
   options.seed = seed_of(w);
@@ -219,6 +228,67 @@ Command points_options(const Words& w) {
                        static_cast<int>(w.integer("--dims", 2, 3)), seed_of(w), trial_of(w)};
 }
 
+Words filters_words(CLI::App& app) {
+  Words w(app, "filters", "What filters do, in numbers: blur, ringing, noise and aliasing of their kernels",
+          "moire filters mitchell lanczos:a=2 gaussian:sigma=0.4");
+  w.positionals("FILTER", "reconstruction filters, NAME or NAME:key=value,...; default: all, with all their presets");
+  w.flag("--json", "as a JSON array, all digits");
+  return w;
+}
+
+Command filters_options(const Words& w) { return FiltersOptions{w.list("FILTER"), w.is_set("--json")}; }
+
+Words spectrum_words(CLI::App& app) {
+  Words w(app, "spectrum", "Which frequencies a pattern, a set of points or the error of an image contains",
+          "moire spectrum jittered --n 1600 --trials 16 -o out/jittered");
+  w.positional("WHAT", "a sampling pattern, NAME or NAME:key=value,..., or an image, .exr or .png");
+  w.option("--points", "FILE", "in place of WHAT: lines x,y or x,y,t in [0, 1), sets apart by a line #; - is stdin");
+  w.option("--reference", "REF", "of an image: what is subtracted; without it the image is an error already");
+  w.option("--n", "N", "of a pattern: number of points, 1 to 16777216");
+  w.option("--trials", "T", "of a pattern: sets to average, default 16; 1 if its points do not vary");
+  w.option("--seed", "S", "of a pattern: names the experiment, 0 to 2^63 - 1; default 1");
+  w.option("--frequencies", "F", "of points: along each axis, even, 4 to 4096; default by their number, 64 to 1024");
+  w.option("-o", "DIR", "write spectrum.exr, spectrum.png and radial.csv; DIR is made if it is not there");
+  w.flag("--json", "as a JSON object, all digits");
+  return w;
+}
+
+// Throws for options that belong to another kind of spectrum.
+void check_kind(const Words& w, const std::string& kind, std::initializer_list<const char*> foreign) {
+  for (const char* name : foreign) {
+    if (w.has(name)) throw Error(name, fmt::format("does not go with {}; leave it out", kind));
+  }
+}
+
+Command spectrum_options(const Words& w) {
+  SpectrumOptions options;
+  options.what = w.text("WHAT");
+  options.points = w.text("--points");
+  options.folder = w.text("-o");
+  options.json = w.is_set("--json");
+  if (options.what.empty() == options.points.empty()) {
+    throw Error(w.place(), "give one of a pattern, an image and --points FILE; see moire spectrum --help");
+  }
+  if (w.has("--frequencies")) {
+    options.frequencies = static_cast<int>(w.integer("--frequencies", kMinFrequencies, kMaxFrequencies));
+    if (options.frequencies % 2 != 0) {
+      throw Error("--frequencies", fmt::format("\"{}\" is odd; give an even number", options.frequencies));
+    }
+  }
+  if (!options.points.empty()) {
+    check_kind(w, "--points", {"--reference", "--n", "--trials", "--seed"});
+  } else if (options.what.ends_with(".exr") || options.what.ends_with(".png")) {
+    check_kind(w, "an image", {"--n", "--trials", "--seed", "--frequencies"});
+    options.reference = w.text("--reference");
+  } else {
+    check_kind(w, "a pattern", {"--reference"});
+    options.n = w.integer("--n", 1, kMaxSamples);
+    if (w.has("--trials")) options.trials = w.integer("--trials", 1, std::numeric_limits<std::uint32_t>::max());
+    if (w.has("--seed")) options.seed = seed_of(w);
+  }
+  return options;
+}
+
 // The first word where a command belongs.
 [[noreturn]] void refuse_command(const CLI::App& app, const std::vector<std::string_view>& commands) {
   const std::vector<std::string> words = app.remaining();
@@ -232,6 +302,7 @@ Command parse_command_line(int argc, const char* const* argv) {
   CLI::App app("moire: error of sampling patterns and reconstruction filters against exact images", "moire");
   app.set_version_flag("--version", "moire " + tool().version);
   app.allow_extras();
+  app.require_subcommand(0, 1);  // at most one: a word after a command is not another one (moire list filters)
   app.footer(
       "Exit codes: 0 ok, 1 a comparison or a stated bound failed, 2 usage or input error,\n"
       "3 input/output error, 130 interrupted.\n\nExample:\n  moire run quick -o out/quick");
@@ -239,11 +310,10 @@ Command parse_command_line(int argc, const char* const* argv) {
     Words words;
     Command (*options)(const Words&);
   };
-  Entry entries[] = {{list_words(app), list_options},
-                     {run_words(app), run_options},
-                     {render_words(app), render_options},
-                     {exact_words(app), exact_options},
-                     {points_words(app), points_options}};
+  Entry entries[] = {{list_words(app), list_options},        {run_words(app), run_options},
+                     {render_words(app), render_options},    {exact_words(app), exact_options},
+                     {points_words(app), points_options},    {filters_words(app), filters_options},
+                     {spectrum_words(app), spectrum_options}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

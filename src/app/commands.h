@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/error.h"
 
@@ -29,7 +31,7 @@ struct RunOptions {
 };
 
 struct RenderOptions {
-  std::string scene, pattern, filter, estimator;
+  std::string scene, pattern, layout, filter, estimator;
   std::int64_t spp = 0;
   std::uint64_t seed = 1;
   std::uint32_t trial = 0;
@@ -51,7 +53,25 @@ struct PointsOptions {
   std::uint32_t trial = 0;
 };
 
-using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions>;
+struct FiltersOptions {
+  std::vector<std::string> filters;  // none: all of the catalogue
+  bool json = false;
+};
+
+struct SpectrumOptions {
+  std::string what;                    // a pattern, or an image: a word that ends in .exr or .png; "" with points
+  std::string points;                  // a file of point sets, "-" for standard input, or ""
+  std::string reference;               // with an image: what to subtract, or ""
+  std::int64_t n = 0;                  // with a pattern
+  std::optional<std::int64_t> trials;  // with a pattern
+  std::uint64_t seed = 1;
+  int frequencies = 0;  // along each axis, even; 0: by the number of points
+  std::string folder;   // of the files, "": none
+  bool json = false;
+};
+
+using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions,
+                             FiltersOptions, SpectrumOptions>;
 
 Exit execute(const TextOptions& options);
 Exit execute(const ListOptions& options);
@@ -59,5 +79,7 @@ Exit execute(const RunOptions& options);
 Exit execute(const RenderOptions& options);
 Exit execute(const ExactOptions& options);
 Exit execute(const PointsOptions& options);
+Exit execute(const FiltersOptions& options);
+Exit execute(const SpectrumOptions& options);
 
 }  // namespace moire

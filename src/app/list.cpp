@@ -13,6 +13,7 @@
 #include "filters/filter.h"
 #include "patterns/pattern.h"
 #include "reports/json.h"
+#include "study/measures.h"
 #include "testimages/testimage.h"
 
 namespace moire {
@@ -34,7 +35,11 @@ std::vector<Entry> find_entries(std::string_view what) {
   if (what == "patterns") return entries_of(patterns());
   if (what == "filters") return entries_of(filters());
   if (what == "scenes") return entries_of(testimages());
-  if (what == "measures") return {{"error", "Error of an image against its exact values", "", {}}};
+  if (what == "measures") {
+    std::vector<Entry> entries;
+    for (const MeasureInfo& m : measures()) entries.push_back({m.name, m.title, m.cite, {}});
+    return entries;
+  }
   if (what == "studies") {
     std::vector<Entry> entries;
     for (const BuiltinStudy& study : builtin_studies()) {

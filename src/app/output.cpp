@@ -1,4 +1,4 @@
-// Standard output, where a short write is an error, and checks of paths before long work.
+// Standard output, where a short write is an error, notes to a person, and checks of paths before long work.
 #include "app/output.h"
 
 #include <unistd.h>
@@ -22,6 +22,10 @@ Error output_error() {
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) throw output_error();
+}
+
+void say(const std::string& place, const std::string& what) {
+  std::fputs(("note: " + place + ": " + what + "\n").c_str(), stderr);
 }
 
 void flush_output() {

@@ -1,4 +1,4 @@
-// Standard output, where a short write is an error, and checks of paths before long work.
+// Standard output, where a short write is an error, notes to a person, and checks of paths before long work.
 #pragma once
 
 #include <string>
@@ -8,6 +8,9 @@ namespace moire {
 
 // Writes to standard output. Throws Error (Exit::io) when it does not take the bytes: a full disk, a closed pipe.
 void print(std::string_view text);
+
+// One line to standard error, "note: PLACE: WHAT", for a person.
+void say(const std::string& place, const std::string& what);
 
 // Empties the buffer of standard output; throws as print() does.
 void flush_output();

@@ -1,7 +1,6 @@
 // moire render: one sampled image and its error.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <variant>
 
 #include "app/commands.h"
@@ -13,6 +12,7 @@
 #include "reports/json.h"
 #include "study/file_names.h"
 #include "study/run.h"
+#include "study/sample_maker.h"
 #include "study/study.h"
 
 namespace moire {
@@ -23,9 +23,9 @@ Study study_of(const RenderOptions& options) {
   Study study;
   study.scenes = {load_scene(options.scene)};
   study.patterns = {PatternChoice(parse_spec(options.pattern, "--pattern"))};
-  study.patterns[0].require_count(options.spp);
   study.spp = {static_cast<int>(options.spp)};
   study.filters = {Filter(parse_spec(options.filter, "--filter"))};
+  study.layouts = {find_layout(options.layout, "--layout")};
   study.estimators = {{options.estimator, find_estimator(options.estimator, "--estimator")}};
   study.seed = options.seed;
   study.images = Images::none;
@@ -70,11 +70,10 @@ Exit execute(const RenderOptions& options) {
   require_renderable(study.scenes[0].image.grid(), study.filters[0], study.spp[0], "SCENE");
   Case c;
   c.trial = options.trial;
-  const auto start = std::chrono::steady_clock::now();
-  const Pattern pattern(study.patterns[0], study.spp[0], Draw{study.seed, c.trial});
-  const std::chrono::nanoseconds setup = std::chrono::steady_clock::now() - start;
+  SampleMaker maker(study);
+  const Samples samples = maker.samples(c);
   const Truth truth = find_truth(study.scenes[0].image, study.filters[0]);
-  const CaseResult result = run_case(study, c, pattern, setup.count(), truth, options.exhaustive);
+  const CaseResult result = run_case(study, c, samples, maker.time_ns(), truth, options.exhaustive);
   if (!options.out.empty()) write_got_exr(options.out, study, c, truth, result);
   if (!options.error.empty()) write_error_exr(options.error, study, c, truth, result);
   print(options.json ? row_json(study, result.row) : row_text(result.row));

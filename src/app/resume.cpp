@@ -16,8 +16,9 @@ constexpr std::string_view kAdvice = "give another folder, or run without --resu
 
 // As describe() writes the case that the row is of.
 std::string case_of(const Row& row) {
-  return fmt::format("{} {} {:.0f} {} {} {:.0f}", row.text("scene"), row.text("pattern"), row.number("spp"),
-                     row.text("filter"), row.text("estimator"), row.number("trial"));
+  return fmt::format("{} {} {:.0f} {} {} {:.0f}{}", row.text("scene"), row.text("pattern"), row.number("spp"),
+                     row.text("filter"), row.text("estimator"), row.number("trial"),
+                     row.text("layout") == "image" ? " image" : "");
 }
 
 }  // namespace

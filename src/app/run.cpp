@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -26,6 +25,7 @@
 #include "reports/markdown.h"
 #include "reports/provenance.h"
 #include "reports/terminal.h"
+#include "study/filter_table.h"
 #include "study/study.h"
 #include "study/summary.h"
 
@@ -33,7 +33,7 @@ namespace moire {
 namespace {
 
 void print_plan(const Study& study, const std::vector<Case>& cases) {
-  print(fmt::format("# {} cases: scene pattern spp filter estimator trial\n", cases.size()));
+  print(fmt::format("# {} cases: scene pattern spp filter estimator trial [layout]\n", cases.size()));
   for (const Case& c : cases) print(describe(study, c) + "\n");
 }
 
@@ -41,15 +41,16 @@ void write_reports(const std::string& folder, const Study& study, const Table& r
   const Summary summary = summarize(rows);
   write_whole(folder + "/results.csv", csv(rows));
   write_whole(folder + "/summary.csv", csv(summary.rows));
+  Table filters;
+  if (study.measures.has(Measure::kernel)) {
+    filters = filter_table(study.filters);
+    write_whole(folder + "/filters.csv", csv(filters));
+  }
+  if (!summary.filters.empty()) write_whole(folder + "/filter_ranking.csv", csv(summary.filters));
   const std::string report = folder + "/report.md";
-  write_whole(report, markdown_report(study.name, rows, summary));
+  write_whole(report, markdown_report(study.name, rows, summary, filters));
   print(terminal_tables(summary, ::isatty(STDOUT_FILENO) != 0));
   print("report: " + report + "\n");
-}
-
-// What happened to an earlier run's results, for a person.
-void say(const std::string& path, const std::string& what) {
-  std::fputs(fmt::format("note: {}: {}\n", path, what).c_str(), stderr);
 }
 
 // The results that are to go on, if there are any.
@@ -64,7 +65,7 @@ Earlier take_up(const std::string& path, const std::string& header, const Study&
 
 // What a new run will not write at once must not stand beside its results as if it were theirs.
 void remove_reports(const std::string& folder) {
-  for (const char* name : {"/results.csv", "/summary.csv", "/report.md"}) {
+  for (const char* name : {"/results.csv", "/summary.csv", "/filters.csv", "/filter_ranking.csv", "/report.md"}) {
     std::error_code ignored;  // a file that cannot be removed cannot be written either, which is told then
     std::filesystem::remove(folder + name, ignored);
   }

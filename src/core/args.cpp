@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "core/error.h"
 #include "core/names.h"
@@ -20,6 +21,9 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
   return parts;
 }
+
+// What names in reports must not have; a path is part of a plug-in's name there.
+bool breaks_names(char c) { return (c >= 0 && c < ' ') || c == '\x7f' || c == '`'; }
 
 std::string range_of(const Param& p) { return shortest(p.min) + " to " + shortest(p.max); }
 
@@ -58,6 +62,9 @@ Value checked(std::string_view owner, const Param& p, Value v, const std::string
     }
     case Param::Kind::path:
       if (!v.is_text || v.text.empty()) throw Error(place, what + "must be a file's path");
+      if (std::any_of(v.text.begin(), v.text.end(), breaks_names)) {
+        throw Error(place, what + "is a path with a line break, control character or backquote; rename the file");
+      }
       return v;
     case Param::Kind::numbers:
       if (v.is_text) throw Error(place, what + "must be numbers, not text; " + std::string(p.help));
@@ -127,6 +134,10 @@ bool Args::given(std::string_view name) const { return std::find(given_.begin(),
 double Args::number(std::string_view name) const { return require(*this, name).numbers.at(0); }
 std::int64_t Args::integer(std::string_view name) const { return static_cast<std::int64_t>(number(name)); }
 std::string_view Args::text(std::string_view name) const { return require(*this, name).text; }
+std::string Args::path(std::string_view name) const {
+  const Value& v = require(*this, name);
+  return (std::filesystem::path(v.folder) / v.text).string();
+}
 
 Spec parse_spec(std::string_view text, std::string_view place) {
   Spec spec;
@@ -139,8 +150,10 @@ Spec parse_spec(std::string_view text, std::string_view place) {
   for (const std::string_view part : split(text.substr(colon + 1), ',')) {
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos || equals == 0) {
+      const bool after_path = !spec.given.empty() && spec.given.back().first == "path";
       throw Error(spec.place, "\"" + std::string(part) + "\" in \"" + spec.text + "\" is not key=value; write " +
-                                  spec.name + ":key=value,key=value");
+                                  spec.name + ":key=value,key=value" +
+                                  (after_path ? " (a path here cannot have a comma: rename the file)" : ""));
     }
     Value value;
     value.text = std::string(part.substr(equals + 1));

@@ -39,6 +39,11 @@ constexpr Param numbers(std::string_view name, bool required, std::string_view f
   return {name, Param::Kind::numbers, 0, 0, 0, fallback, {}, required, help};
 }
 
+// A file's path, which must be given.
+constexpr Param path(std::string_view name, std::string_view help) {
+  return {name, Param::Kind::path, 0, 0, 0, {}, {}, true, help};
+}
+
 // A value as given by a person: either text (from a command line, or a TOML string) or numbers.
 struct Value {
   std::string text;             // as written, when it came as text
@@ -46,7 +51,8 @@ struct Value {
   int rank = 0;                 // 0: one number, 1: a list, 2: rows of equal length
   std::size_t columns = 0;      // length of each row when rank == 2
   bool is_text = true;
-  std::string place;  // where it stands, for messages
+  std::string place;        // where it stands, for messages
+  std::string folder = {};  // where a relative path starts; "": the working directory
 };
 
 using Given = std::vector<std::pair<std::string, Value>>;
@@ -62,6 +68,7 @@ class Args {
   double number(std::string_view name) const;          // number or integer
   std::int64_t integer(std::string_view name) const;   // integer
   std::string_view text(std::string_view name) const;  // choice or path
+  std::string path(std::string_view name) const;       // path, from where its file can be opened
   // The value, or the default of a number, integer or choice; null for others that were not given.
   const Value* find(std::string_view name) const;
   bool given(std::string_view name) const;
@@ -81,7 +88,7 @@ struct Spec {
   std::string place;
 };
 
-// Throws Error for an empty name, a parameter without "=", an empty key or a key given twice.
+// Throws Error for an empty name, a parameter without "=", an empty key or a key given twice. A value ends at a comma.
 Spec parse_spec(std::string_view text, std::string_view place);
 
 // The whole of `text` as a finite double; false when it is not one. Locale-free.

@@ -66,6 +66,19 @@ inline Dd dd_exp(Dd x) {
   return {std::ldexp(sum.hi, static_cast<int>(k)), std::ldexp(sum.lo, static_cast<int>(k))};
 }
 
+// I0(sqrt(s)), the modified Bessel function of order 0, for 0 <= s <= 2^12 or so close below 0 that s is rounding: the
+// sum of (s / 4)^k / (k!)^2. Its terms are positive, and those that count come before k = 100 at most: relative error
+// below 100 * 17 * 2^-106 < 2^-95.
+inline Dd dd_bessel_i0_of_root(Dd s) {
+  const Dd quarter = s * Dd(0.25);
+  Dd sum = 1.0, term = 1.0;
+  for (int k = 1; std::fabs(term.hi) > 0x1p-110 * sum.hi; ++k) {
+    term = term * quarter / Dd(static_cast<double>(k) * k);
+    sum = sum + term;
+  }
+  return sum;
+}
+
 inline Dd dd_abs(Dd x) { return x.hi < 0 ? -x : x; }
 
 }  // namespace moire

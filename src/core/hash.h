@@ -35,6 +35,8 @@ enum class Axis : std::uint32_t {
   dart,      // candidates of dart-throwing inside a pixel
   bank,      // candidates of set s of a bank; the pixel is (s, 0)
   set,       // candidates of the one set that belongs to no pixel
+  area,        // a set over a whole image: positions, candidates, its shift; the pixel is (0, 0)
+  area_order,  // permutations of such a set
   line,      // random lines of a study's scenes; the pixel is (0, 0)
 };
 

@@ -10,10 +10,12 @@
 
 namespace moire {
 
-// A directed straight piece. `weight` is 1 for the boundary of a set; a set of density w has weight w.
+// A directed straight piece. `weight` is 1 for the boundary of a set; a set of density w has weight w. `doubt`, pixels:
+// each end may be off the true line by so much in either coordinate.
 struct Segment {
   Vec2 a, b;
   double weight = 1;
+  double doubt = 0;
 };
 
 // A whole circle, walked from +x towards +y. Its centre is center + center_rest, the second the rounding error of the
@@ -29,8 +31,8 @@ struct Circle {
 struct Boundary {
   std::vector<Segment> segments;
   std::vector<Circle> circles;
-  // Area (square pixels) inside the window where the described set may differ from the scene: an upper bound on the
-  // symmetric difference, from the rounding of vertices and from parts that were not resolved.
+  // Area (square pixels) inside the window where the described set may differ from the scene besides what the doubts of
+  // segments allow: an upper bound on the symmetric difference, mostly from parts that were not resolved.
   double area_error = 0;
 
   void clear() {

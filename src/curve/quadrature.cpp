@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "core/double_double.h"
 
@@ -48,6 +49,20 @@ Rule gauss_legendre(int n) {
   const auto first = static_cast<std::size_t>(n * (n - 1) / 2);
   const auto count = static_cast<std::size_t>(n);
   return {std::span(tables.node).subspan(first, count), std::span(tables.weight).subspan(first, count)};
+}
+
+double gauss_remainder(std::size_t ellipse, int n) {
+  struct Factors {
+    double factor[std::size(kEllipses)][kMaxNodes + 1];
+    Factors() {
+      for (std::size_t i = 0; i < std::size(kEllipses); ++i) {
+        const double rho = kEllipses[i];
+        for (int j = 0; j <= kMaxNodes; ++j) factor[i][j] = 64.0 / 15 * std::pow(rho, -2 * j) / (1 - 1 / (rho * rho));
+      }
+    }
+  };
+  static const Factors factors;
+  return factors.factor[ellipse][n];
 }
 
 }  // namespace moire

@@ -7,6 +7,8 @@
 // thms 8.1, 19.3).
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <span>
 
 namespace moire {
@@ -20,5 +22,15 @@ struct Rule {
 
 // 1 <= n <= kMaxNodes.
 Rule gauss_legendre(int n);
+
+// Parameters of the ellipses that remainders are tried with.
+inline constexpr double kEllipses[] = {1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 40.0};
+
+// The remainder with n nodes per unit of M, on kEllipses[ellipse].
+double gauss_remainder(std::size_t ellipse, int n);
+
+// Parameter of the ellipse that holds every disk of radius r around a point of [-1, 1]: |z - 1| + |z + 1| <= 2 + 2 r on
+// the disk, and it is rho + 1 / rho on the ellipse.
+inline double ellipse_of_disk(double r) { return 1 + r + std::sqrt(r * (r + 2)); }
 
 }  // namespace moire

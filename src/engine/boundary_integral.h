@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/sum.h"
+#include "curve/arc.h"
 #include "curve/boundary.h"
 #include "filters/kernel.h"
 
@@ -24,29 +25,33 @@ class BoundaryIntegral {
   void add(const Circle& circle);
 
   double value() const { return sum_.value(); }
-  // Guaranteed bound on |value() - integral over the described curves|: rounding, quadrature and kernel fit.
+  // Guaranteed bound on |value() - integral over the true curves|: rounding, quadrature, kernel fit and the doubts of
+  // the segments.
   double bound() const;
 
  private:
-  struct ArcFrame;
-  void add_segment_piece(const Segment& s, double from, double to);
-  void add_arc(const ArcFrame& arc);
-  void add_arc_piece(const ArcFrame& arc, double from, double to, int depth);
+  // The pieces of the kernel that x and y lie in, and bounds there.
+  struct Cell {
+    int px, py;
+    const Kernel::PieceBounds &x, &y;
+  };
+  Cell cell(int px, int py) const { return {px, py, kernel_.bounds(px), kernel_.bounds(py)}; }
+
+  void add_line_piece(Vec2 a, Vec2 b, const Cell& cell, double weight, double off_x, double off_y);
+  void add_arc(const Arc& arc, bool tiny);
+  void add_arc_piece(const Arc& arc, bool tiny, double from, double to, int depth);
+  Cell arc_cell(const Arc& arc, bool tiny, const ArcMiddle& middle, double half);
   void add_closed_form(double weight, double y0, double y1);
   double delta_K(const Circle& c, double xi) const;
 
   const Kernel& kernel_;
   int line_nodes_;  // enough for straight pieces, remainder line_remainder_ per unit of |dy|
   double line_remainder_;
-  double position_error_;  // of a computed point on a curve, pixels
-  double per_length_;      // bound on the integrand's error, per unit of |dy|
-  double per_cut_;         // error of a cut that misses its knot by position_error_
+  double cut_error_;  // of a place where a circle is cut, from the curve or from its knot, pixels
   std::vector<double> cuts_;
 
   Sum sum_;
-  double length_ = 0;  // total |dy| of integrated pieces
-  double other_ = 0;   // bounds that are not proportional to length
-  int cuts_made_ = 0;
+  double error_ = 0;
 };
 
 }  // namespace moire

@@ -66,10 +66,10 @@ struct CellRow {
 
 class Renderer {
  public:
-  Renderer(const TestImage& scene, const Pattern& pattern, const Filter& filter, const Wanted& wanted, Grid grid,
+  Renderer(const TestImage& scene, Samples samples, const Filter& filter, const Wanted& wanted, Grid grid,
            Estimator estimator, bool skip_empty_cells)
       : scene_(scene),
-        pattern_(pattern),
+        samples_(samples),
         kernel_(filter.kernel()),
         reach_(filter.apron()),
         side_(static_cast<std::size_t>(2 * reach_ + 1)),
@@ -103,33 +103,36 @@ class Renderer {
     return row;
   }
 
+  // Samples of a row's cells.
+  std::int64_t count(int y, const CellRow& row) const {
+    std::int64_t count = 0;
+    for (const Interval& c : row.cells) count += samples_.count(c.x0, c.x1, y);
+    return count;
+  }
+
   std::int64_t bytes(const CellRow& row) const {
     return static_cast<std::int64_t>(row.own.size() * (sizeof(OwnCount) + side_ * side_ * sizeof(WeightSum)));
   }
 
   // Generates, tests and sums the samples of a row's cells.
   void sample(int y, CellRow& row) const {
-    const auto n = static_cast<std::size_t>(pattern_.n());
-    const int together = std::max(1, kBatch / pattern_.n());
-    std::vector<Pixel> run;
-    std::vector<double> xs, ys;
+    const int together = std::max(1, static_cast<int>(kBatch / std::max(1.0, samples_.density())));
+    RowSamples samples;
     std::vector<std::uint8_t> inside, needed(side_ * side_);
     CellSums sum(kernel_, reach_);
     row.sums.resize(row.own.size() * side_ * side_);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       for (int x = row.cells[i].x0; x < row.cells[i].x1; x += together) {
         const int end = std::min(row.cells[i].x1, x + together);
-        run.clear();
-        for (int c = x; c < end; ++c) run.push_back({c, y});
-        xs.resize(run.size() * n);
-        ys.resize(run.size() * n);
-        inside.resize(run.size() * n);
-        pattern_.fill(run, {xs, ys});
-        scene_.contains(run, xs, ys, inside);
-        for (std::size_t c = 0; c < run.size(); ++c) {
-          const std::size_t at = row.first[i] + static_cast<std::size_t>(x - row.cells[i].x0) + c;
-          mark_needed(x + static_cast<int>(c), y, needed);
-          sum({xs.data() + c * n, n}, {ys.data() + c * n, n}, {inside.data() + c * n, n}, needed,
+        samples_.get(x, end, y, samples);
+        inside.resize(samples.x.size());
+        if (!samples.x.empty()) scene_.contains(samples.pixels, samples.x, samples.y, inside);
+        for (int cell = x; cell < end; ++cell) {
+          const auto c = static_cast<std::size_t>(cell - x);
+          const std::size_t at = row.first[i] + static_cast<std::size_t>(cell - row.cells[i].x0);
+          const std::size_t from = samples.first[c], n = samples.first[c + 1] - from;
+          mark_needed(cell, y, needed);
+          sum({samples.x.data() + from, n}, {samples.y.data() + from, n}, {inside.data() + from, n}, needed,
               {row.sums.data() + at * side_ * side_, side_ * side_}, row.own[at]);
         }
       }
@@ -155,7 +158,7 @@ class Renderer {
       }
     }
     // Adding +0.0 turns a negative zero, from a negative lobe, into a positive one.
-    const double rho = pattern_.n();
+    const double rho = samples_.density();
     if (estimator_ == Estimator::unnormalised) return {kf / rho + 0.0, false};
     if (estimator_ == Estimator::ratio && k >= rho / 4) return {kf / k + 0.0, false};
     const CellRow& own_row = *rows[static_cast<std::size_t>(reach_)];
@@ -205,7 +208,7 @@ class Renderer {
   }
 
   const TestImage& scene_;
-  const Pattern& pattern_;
+  Samples samples_;
   const Kernel& kernel_;
   int reach_;
   std::size_t side_;
@@ -248,15 +251,14 @@ void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::
   }
 }
 
-Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& filter, Estimator estimator,
+Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive) {
   const Grid grid = rows.grid();
   const int reach = filter.apron();
-  const std::int64_t n = pattern.n();
   Rendered out;
   const bool linear = estimator == Estimator::unnormalised;
   out.pixels = exhaustive ? Pixels::every : linear ? Pixels::covered : Pixels::active;
-  out.samples_total = n * (grid.width + 2 * std::int64_t{reach}) * (grid.height + 2 * std::int64_t{reach});
+  out.samples_total = samples.total(grid, reach);
   const Wanted wanted = wanted_pixels(rows, out.pixels);
   std::vector<std::size_t> first_value{0};  // of each row
   for (const auto& row : wanted) {
@@ -265,7 +267,7 @@ Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& fi
     first_value.push_back(count);
   }
   out.value.resize(first_value.back());
-  const Renderer renderer(scene, pattern, filter, wanted, grid, estimator, linear && !exhaustive);
+  const Renderer renderer(scene, samples, filter, wanted, grid, estimator, linear && !exhaustive);
   std::vector<std::int64_t> fallbacks(static_cast<std::size_t>(grid.height));
   std::deque<CellRow> cells;  // rows first_cell .. next_cell - 1
   int first_cell = -reach, next_cell = -reach, next_pixel = 0;
@@ -276,7 +278,7 @@ Rendered render(const TestImage& scene, const Pattern& pattern, const Filter& fi
     while (next_cell < grid.height + reach && (bytes == 0 || bytes < kBandBytes)) {
       cells.push_back(renderer.cell_row(next_cell++));
       bytes += renderer.bytes(cells.back());
-      out.samples_evaluated += n * static_cast<std::int64_t>(cells.back().own.size());
+      out.samples_evaluated += renderer.count(next_cell - 1, cells.back());
     }
     parallel_for(static_cast<std::size_t>(next_cell - band_begin), [&](std::size_t i) {
       const int y = band_begin + static_cast<int>(i);

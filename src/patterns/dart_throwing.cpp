@@ -21,6 +21,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "patterns/area.h"
 #include "patterns/dart_board.h"
 #include "patterns/pattern.h"
 #include "patterns/torus.h"
@@ -38,19 +39,22 @@ constexpr Param kParams[] = {
 // Most points that the sets of a bank may have together: 2^24, which is 256 MiB.
 constexpr std::int64_t kMaxBankPoints = std::int64_t{1} << 24;
 
+// Most boxes to a side of the board of an area: 256 MiB.
+constexpr int kMostAreaBoxes = 8192;
+
 double first_radius(int n) { return std::sqrt(2 / (std::sqrt(3.0) * n)); }
 
-// Candidate c of a set is point c of (key, axis). About 40 k + 400 n of them are looked at: more than 2^32 when n is
-// large.
-void throw_darts(const Key& key, Axis axis, int n, std::int64_t k, DartBoard::Memory& memory, double* x,
-                 double* y) noexcept {
+// Candidate c of a set is point c of (key, axis), stretched over the torus. About 40 k + 400 n of them are looked at:
+// more than 2^32 when n is large. r is the first radius.
+void throw_darts(const Key& key, Axis axis, int n, std::int64_t k, Grid torus, double r, DartBoard::Memory& memory,
+                 double* x, double* y) noexcept {
   constexpr int kBlock = 64;
   std::array<double, kBlock> u, v;
   DartBoard board(memory, x, y);
-  double r = first_radius(n);
   std::int64_t misses = 0;
   for (std::uint64_t block = 0; board.kept() < n; block += kBlock) {
     uniform_points(key, axis, block, kBlock, u.data(), v.data());
+    if (torus != Grid{}) stretch(torus, {u, v});
     for (std::size_t c = 0; c < kBlock && board.kept() < n; ++c) {
       if (!board.too_near(u[c], v[c], r)) {
         board.keep(u[c], v[c], r);
@@ -132,11 +136,22 @@ class DartThrowing {
     }
   }
 
+  static constexpr auto area_count = any_area_count;
+  // One set on the torus of the area, distances in pixels.
+  static void fill_area(const Args& args, Grid area, Draw d, Points out) {
+    const auto n = static_cast<int>(out.x.size());
+    const double r = first_radius(n) * std::sqrt(static_cast<double>(area.width) * area.height);
+    DartBoard::Memory memory(n, r, area.width, area.height, kMostAreaBoxes);
+    throw_darts(pixel_key(draw_hash(d.seed, d.trial), {}), Axis::area, n, args.integer("k"), area, r, memory,
+                out.x.data(), out.y.data());
+  }
+
   void fill_set(Points out) const noexcept { make_set(pixel_key(draw_, {}), Axis::set, out.x.data(), out.y.data()); }
 
  private:
   void make_set(const Key& key, Axis axis, double* x, double* y) const noexcept {
-    workshop_.borrow([&](DartBoard::Memory& memory) { throw_darts(key, axis, n_, k_, memory, x, y); });
+    workshop_.borrow(
+        [&](DartBoard::Memory& memory) { throw_darts(key, axis, n_, k_, {}, first_radius(n_), memory, x, y); });
   }
 
   // One set of the bank, all with the same probability to 2^-32: n x-coordinates, then n y-coordinates.

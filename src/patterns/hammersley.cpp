@@ -1,5 +1,6 @@
 // Hammersley points: (i/N, phi_2(i)), phi_2 the radical inverse in base 2. J. M. Hammersley, "Monte Carlo methods for
 // solving multivariable problems", Ann. New York Acad. Sci. 86, 1960.
+#include "patterns/area.h"
 #include "patterns/instance.h"
 #include "patterns/pattern.h"
 #include "patterns/radical_inverse.h"
@@ -23,6 +24,13 @@ struct Hammersley {
 
   Hammersley(const Args& args, int n, Draw draw) : points(args, draw, hammersley_set(n)) {}
   void fill(std::span<const Pixel> run, Points out) const noexcept { points.fill(run, out); }
+
+  static constexpr auto area_count = any_area_count;
+  static void fill_area(const Args& args, Grid area, Draw draw, Points out) {
+    const Pixel whole{};
+    Instances(args, draw, hammersley_set(static_cast<int>(out.x.size()))).fill({&whole, 1}, out);
+    stretch(area, out);
+  }
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // inside both strata. P. Shirley, "Discrepancy as a quality measure for sample distributions", Eurographics 1991.
 #include <utility>
 
+#include "patterns/area.h"
 #include "patterns/pattern.h"
 #include "patterns/strata.h"
 #include "patterns/uniform.h"
@@ -9,45 +10,57 @@
 namespace moire {
 namespace {
 
-// An integer of [0, bound), bound <= 2^24, from the 64 random bits (high, low): their product with bound, divided by
-// 2^64. No value is more than one part in 2^40 too likely.
+// An integer of [0, bound), bound <= 2^26, from the 64 random bits (high, low): their product with bound, divided by
+// 2^64. No value is more than one part in 2^38 too likely.
 std::int32_t below(std::uint32_t high, std::uint32_t low, std::uint32_t bound) noexcept {
   const std::uint64_t carry = (std::uint64_t{low} * bound) >> 32;
   return static_cast<std::int32_t>((std::uint64_t{high} * bound + carry) >> 32);
 }
 
+// Fisher-Yates, inside out and in place: y becomes the permutation, x holds the draws it is made from.
+void permute(const Key& key, Axis order, int n, double* __restrict x, double* __restrict y) noexcept {
+  for (int i = 0; i < n; ++i) {
+    const Words w = hash(key, static_cast<std::uint32_t>(i), order);
+    x[i] = below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
+  }
+  for (int i = 0; i < n; ++i) {
+    y[i] = i;
+    std::swap(y[i], y[static_cast<std::int32_t>(x[i])]);
+  }
+}
+
+// n rooks on the unit square.
+void place_rooks(const Key& key, Axis order, Axis position, int n, double* __restrict x,
+                 double* __restrict y) noexcept {
+  const Strata strata(n);
+  permute(key, order, n, x, y);
+  for (int i = 0; i < n; ++i) {
+    const Words w = hash(key, static_cast<std::uint32_t>(i), position);
+    x[i] = strata.place(i, strata.offset(unit(w.a, w.b)));
+    y[i] = strata.place(y[i], strata.offset(unit(w.c, w.d)));
+  }
+}
+
 struct NRooks {
   int n;
-  Strata strata;
   std::uint64_t draw;
 
-  NRooks(const Args&, int count, Draw d) : n(count), strata(count), draw(draw_hash(d.seed, d.trial)) {}
-
-  // Fisher-Yates, inside out and in place: y becomes the permutation, x holds the draws it is made from.
-  void permute(const Key& key, double* __restrict x, double* __restrict y) const noexcept {
-    for (int i = 0; i < n; ++i) {
-      const Words w = hash(key, static_cast<std::uint32_t>(i), Axis::order);
-      x[i] = below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
-    }
-    for (int i = 0; i < n; ++i) {
-      y[i] = i;
-      std::swap(y[i], y[static_cast<std::int32_t>(x[i])]);
-    }
-  }
+  NRooks(const Args&, int count, Draw d) : n(count), draw(draw_hash(d.seed, d.trial)) {}
 
   void fill(std::span<const Pixel> run, Points out) const noexcept {
     double* __restrict x = out.x.data(), * __restrict y = out.y.data();
     for (const Pixel& pixel : run) {
-      const Key key = pixel_key(draw, pixel);
-      permute(key, x, y);
-      for (int i = 0; i < n; ++i) {
-        const Words w = hash(key, static_cast<std::uint32_t>(i), Axis::xy);
-        x[i] = strata.place(i, strata.offset(unit(w.a, w.b)));
-        y[i] = strata.place(y[i], strata.offset(unit(w.c, w.d)));
-      }
+      place_rooks(pixel_key(draw, pixel), Axis::order, Axis::xy, n, x, y);
       x += n;
       y += n;
     }
+  }
+
+  static constexpr auto area_count = any_area_count;
+  static void fill_area(const Args&, Grid area, Draw d, Points out) {
+    place_rooks(pixel_key(draw_hash(d.seed, d.trial), {}), Axis::area_order, Axis::area, static_cast<int>(out.x.size()),
+                out.x.data(), out.y.data());
+    stretch(area, out);
   }
 };
 

@@ -45,11 +45,33 @@ void PatternChoice::require_count(std::int64_t n) const {
                 fmt::format("pattern \"{}\" cannot have {} samples per pixel; {}", info_->name, n, instead));
   };
   if (n < 1 || n > kMaxSamples) refuse(fmt::format("1 to {} are possible", kMaxSamples));
-  const auto [below, above] = info_->counts(static_cast<int>(n));
+  const auto [below, above] = info_->counts(args_, static_cast<int>(n));
   if (below != n) refuse(fmt::format("nearest: {}, {}", below, above));
 }
 
-PatternInfo::Counts square_count(int n) {
+std::int64_t PatternChoice::area_count(Grid area, std::int64_t n) const {
+  if (info_->area_count == nullptr) {
+    std::vector<std::string_view> able;
+    for (const PatternInfo* info : patterns()) {
+      if (info->area_count != nullptr) able.push_back(info->name);
+    }
+    throw Error(args_.place(),
+                fmt::format("pattern \"{}\" cannot fill an image as one set; these can: {}", info_->name, join(able)));
+  }
+  const double wanted = static_cast<double>(n) * area.width * area.height;
+  const std::int64_t count =
+      wanted > 0x1p40 ? std::int64_t{1} << 40 : info_->area_count(args_, area, n * area.width * area.height);
+  if (count > kMaxAreaPoints) {
+    throw Error(
+        args_.place(),
+        fmt::format("pattern \"{}\" with {} samples per pixel over {} x {} pixels would be a set of more than {} "
+                    "points; give fewer samples or a smaller image",
+                    info_->name, n, area.width, area.height, kMaxAreaPoints));
+  }
+  return count;
+}
+
+PatternInfo::Counts square_count(const Args&, int n) {
   n = std::min(n, kMaxSamples);  // itself a square, so the one above exists as well
   const int m = static_cast<int>(std::sqrt(static_cast<double>(n)));  // exact for squares: the root of one is a double
   return m * m == n ? PatternInfo::Counts{n, n} : PatternInfo::Counts{m * m, (m + 1) * (m + 1)};

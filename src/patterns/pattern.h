@@ -48,6 +48,18 @@ concept HasSet = requires(const P& p, Points out) {
   noexcept;
 };
 
+// A pattern may fill a whole image as one set, without regard to pixels: Mitchell's second way, and what shows a
+// pattern's grain. `area_count` is how many points it makes where n are asked for (the nearest count that it can have);
+// `fill_area` writes that many, x in [0, area.width) and y in [0, area.height) pixels, in any order. It may allocate.
+template <class P>
+concept FillsArea = requires(const Args& args, Grid area, std::int64_t n, Draw draw, Points out) {
+  { P::area_count(args, area, n) } -> std::same_as<std::int64_t>;
+  P::fill_area(args, area, draw, out);
+};
+
+// Most points that such a set may have: 2^26, which is 1 GiB.
+inline constexpr std::int64_t kMaxAreaPoints = std::int64_t{1} << 26;
+
 enum class Varies : std::uint8_t {
   never,     // the same points in every pixel and trial
   by_trial,  // differs by seed, trial and pixel
@@ -62,11 +74,13 @@ struct PatternInfo {
   struct Counts {
     int below, above;
   };
-  Counts (*counts)(int n);
+  Counts (*counts)(const Args&, int n);
   std::span<const Param> params;
   std::shared_ptr<const void> (*make)(const Args&, int n, Draw);
   void (*fill)(const void*, std::span<const Pixel>, Points) noexcept;
   void (*fill_set)(const void*, Points) noexcept;
+  std::int64_t (*area_count)(const Args&, Grid, std::int64_t);  // null: does not fill areas
+  void (*fill_area)(const Args&, Grid, Draw, Points);           // null with area_count
 };
 
 // Every pattern of the program, in the order of patterns/CMakeLists.txt.
@@ -85,6 +99,9 @@ class PatternChoice {
   bool varies() const { return info_->varies(args_) != Varies::never; }
   // Throws Error naming the nearest usable counts when the pattern cannot have n points.
   void require_count(std::int64_t n) const;
+  // Points of the set that fills the area with about n points per pixel. Throws Error when the pattern cannot fill
+  // areas, naming those that can, and for more than kMaxAreaPoints points.
+  std::int64_t area_count(Grid area, std::int64_t n) const;
 
  private:
   const PatternInfo* info_;
@@ -108,17 +125,29 @@ class Pattern {
 };
 
 // The counts of patterns that take any number of points.
-inline PatternInfo::Counts any_count(int n) { return {n, n}; }
+inline PatternInfo::Counts any_count(const Args&, int n) { return {n, n}; }
 // The counts m * m.
-PatternInfo::Counts square_count(int n);
+PatternInfo::Counts square_count(const Args&, int n);
 
 // Fields that an author writes; describe() adds the table of functions.
 struct PatternText {
   std::string_view name, title, cite;
   Varies (*varies)(const Args&);
-  PatternInfo::Counts (*counts)(int n);
+  PatternInfo::Counts (*counts)(const Args&, int n);
   std::span<const Param> params;
 };
+
+template <class P>
+constexpr auto area_count_of() -> std::int64_t (*)(const Args&, Grid, std::int64_t) {
+  if constexpr (FillsArea<P>) return P::area_count;
+  return nullptr;
+}
+
+template <class P>
+constexpr auto fill_area_of() -> void (*)(const Args&, Grid, Draw, Points) {
+  if constexpr (FillsArea<P>) return P::fill_area;
+  return nullptr;
+}
 
 template <PatternType P>
 constexpr PatternInfo describe(const PatternText& t) {
@@ -138,7 +167,9 @@ constexpr PatternInfo describe(const PatternText& t) {
           const Pixel origin{};
           static_cast<const P*>(p)->fill({&origin, 1}, out);
         }
-      }};
+      },
+      area_count_of<P>(),
+      fill_area_of<P>()};
 }
 
 }  // namespace moire

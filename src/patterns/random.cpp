@@ -1,5 +1,6 @@
 // Random sampling: independent uniform points. Its error falls as N^-1/2 for every image; the yardstick of the others.
 // R. L. Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986, calls its spectrum white noise.
+#include "patterns/area.h"
 #include "patterns/pattern.h"
 #include "patterns/uniform.h"
 
@@ -19,6 +20,13 @@ struct Random {
       x += n;
       y += n;
     }
+  }
+
+  static constexpr auto area_count = any_area_count;
+  static void fill_area(const Args&, Grid area, Draw d, Points out) {
+    const Key key = pixel_key(draw_hash(d.seed, d.trial), {});
+    uniform_points(key, Axis::area, 0, static_cast<int>(out.x.size()), out.x.data(), out.y.data());
+    stretch(area, out);
   }
 };
 

@@ -1,6 +1,7 @@
 // Zaremba-Hammersley points: (i/N, psi_2(i)), the radical inverse with every second digit flipped, as in D. P.
 // Mitchell, "Ray tracing and irregularities of distribution", Third Eurographics Workshop on Rendering, 1992, after T.
 // T. Warnock, "Computational investigations of low-discrepancy point sets", in S. K. Zaremba (ed.), 1972.
+#include "patterns/area.h"
 #include "patterns/instance.h"
 #include "patterns/pattern.h"
 #include "patterns/radical_inverse.h"
@@ -33,6 +34,13 @@ struct Zaremba {
 
   Zaremba(const Args& args, int n, Draw draw) : points(args, draw, zaremba_set(n)) {}
   void fill(std::span<const Pixel> run, Points out) const noexcept { points.fill(run, out); }
+
+  static constexpr auto area_count = any_area_count;
+  static void fill_area(const Args& args, Grid area, Draw draw, Points out) {
+    const Pixel whole{};
+    Instances(args, draw, zaremba_set(static_cast<int>(out.x.size()))).fill({&whole, 1}, out);
+    stretch(area, out);
+  }
 };
 
 }  // namespace

@@ -9,12 +9,38 @@ namespace {
 
 Cell finite(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
 
+// Sets <field>_<region>.
+class Setter {
+ public:
+  Setter(Row& row, std::string_view region) : row_(row), ending_("_" + std::string(region)) {}
+  void operator()(std::string_view field, Cell value) const {
+    row_.set(std::string(field) + ending_, std::move(value));
+  }
+
+ private:
+  Row& row_;
+  std::string ending_;
+};
+
 }  // namespace
 
+std::string sampler_of(const Row& row) {
+  const std::string_view layout = row.text("layout");
+  return std::string(row.text("pattern")) +
+         (layout.empty() || layout == "pixel" ? "" : ", layout=" + std::string(layout));
+}
+
+void set_main_errors(Row& row, std::string_view region, const Errors& errors) {
+  const Setter set(row, region);
+  set("n_pixels", errors.n_pixels);
+  set("bias", finite(errors.bias));
+  set("mse", finite(errors.mse));
+  set("rmse", finite(errors.rmse));
+  set("max_abs", finite(errors.max_abs));
+}
+
 void set_errors(Row& row, std::string_view region, const Errors& errors) {
-  const auto set = [&](std::string_view field, Cell value) {
-    row.set(std::string(field) + "_" + std::string(region), std::move(value));
-  };
+  const Setter set(row, region);
   const bool wrong = errors.max_x >= 0;
   set("n_pixels", errors.n_pixels);
   set("bias", finite(errors.bias));

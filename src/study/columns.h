@@ -1,6 +1,7 @@
 // Columns that more than one room writes or reads, and the rules behind them, said once.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "measure/error.h"
@@ -10,6 +11,12 @@ namespace moire {
 
 // Sets <field>_<region> for every field of Errors, e.g. rmse_active. Values that do not exist are empty cells.
 void set_errors(Row& row, std::string_view region, const Errors& errors);
+
+// The same for n_pixels, bias, mse, rmse and max_abs alone.
+void set_main_errors(Row& row, std::string_view region, const Errors& errors);
+
+// What a row's samples are called in tables: the pattern, and the layout where it is not `pixel`.
+std::string sampler_of(const Row& row);
 
 // True where an error is so small that the reference's own bound (absolute, guaranteed) may show in it.
 constexpr bool reference_limited(double rmse, double error_bound) { return rmse < 10 * error_bound; }

@@ -45,10 +45,10 @@ std::string file_part(std::string_view text) {
 
 std::string image_stem(const Study& study, const Case& c) {
   const std::string& estimator = study.estimators[c.estimator].text;
-  return fmt::format("images/{}_{}_{}_{}{}_t{}", file_part(study.scenes[c.scene].name),
+  return fmt::format("images/{}_{}_{}_{}{}{}_t{}", file_part(study.scenes[c.scene].name),
                      file_part(study.patterns[c.pattern].text()), study.spp[c.spp],
                      file_part(study.filters[c.filter].text()), estimator == "ratio" ? "" : "_" + file_part(estimator),
-                     c.trial);
+                     study.layouts[c.layout] == Layout::image ? "_image" : "", c.trial);
 }
 
 std::string exact_stem(const Study& study, std::uint32_t scene, std::uint32_t filter) {

@@ -13,7 +13,7 @@ namespace moire {
 std::string file_part(std::string_view text);
 
 // images/<scene>_<pattern>_<spp>_<filter>_t<trial>, followed by .got.exr, .error.exr, ...; an estimator other than
-// `ratio` follows the filter as _<estimator>.
+// `ratio` follows the filter as _<estimator>, and _image after it says that layout.
 std::string image_stem(const Study& study, const Case& c);
 
 // images/<scene>_<filter>, followed by .exact.exr, ...

@@ -20,8 +20,8 @@
 namespace moire {
 namespace {
 
-constexpr std::array<std::string_view, 9> kStudyKeys = {"name",    "seed",       "trials",   "spp",   "patterns",
-                                                        "filters", "estimators", "measures", "images"};
+constexpr std::array<std::string_view, 10> kStudyKeys = {"name",     "seed",    "trials",     "layout",   "spp",
+                                                         "patterns", "filters", "estimators", "measures", "images"};
 
 // The members of a list that must not be empty.
 const std::vector<Node>& list_of(const Node& node, std::string_view what, std::string_view example) {
@@ -60,17 +60,47 @@ std::vector<T> parse_specs(const Node& node, std::string_view what, std::string_
   return choices;
 }
 
+// Paths start from `folder`, the study file's. The texts of files that the filter reads are appended to the study's.
+Filter make_filter(const std::string& text, const std::string& place, const std::filesystem::path& folder,
+                   std::string& study_text) {
+  Spec spec = parse_spec(text, place);
+  for (auto& [key, value] : spec.given) value.folder = folder.string();
+  Filter filter(spec);
+  for (const Param& p : filter.info().params) {
+    if (p.kind != Param::Kind::path) continue;
+    study_text += fmt::format("\n# {}\n{}", filter.args().text(p.name), read_text(filter.args().path(p.name)));
+  }
+  return filter;
+}
+
 EstimatorChoice make_estimator(const std::string& text, const std::string& place) {
   return {text, find_estimator(text, place)};
 }
 
-void check_measures(const Node& node) {
-  constexpr std::string_view kKnown[] = {"error"};
-  for (const Node& item : list_of(node, "measures", "[\"error\"]")) {
-    if (text_of(item, "an entry of measures") != kKnown[0]) {
-      throw Error(item.place, unknown_name("measure", item.text, kKnown));
-    }
+// One layout, or a list of them.
+std::vector<Layout> parse_layouts(const Node& node) {
+  if (node.kind == Node::Kind::text) return {find_layout(node.text, node.place)};
+  std::vector<Layout> layouts;
+  for (const Node& item : list_of(node, "layout", "[\"pixel\", \"image\"]")) {
+    const Layout layout = find_layout(text_of(item, "an entry of layout"), item.place);
+    refuse_twice(item, fmt::format("\"{}\"", item.text),
+                 std::find(layouts.begin(), layouts.end(), layout) == layouts.end());
+    layouts.push_back(layout);
   }
+  return layouts;
+}
+
+MeasureSet parse_measures(const Node& node) {
+  MeasureSet set;
+  for (const Node& item : list_of(node, "measures", "[\"error\"]")) {
+    const Measure m = find_measure(text_of(item, "an entry of measures"), item.place);
+    refuse_twice(item, fmt::format("\"{}\"", item.text), !set.has(m));
+    set.add(m);
+  }
+  if (!set.has(Measure::error)) {
+    throw Error(node.place, "measures has no \"error\", which summaries and rankings rest on; add it");
+  }
+  return set;
 }
 
 Images parse_images(const Node& node) {
@@ -162,6 +192,7 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
     study.seed = static_cast<std::uint64_t>(integer_of(*n, "seed", 0, std::numeric_limits<std::int64_t>::max()));
   }
   if (const Node* n = root.find("trials")) study.trials = static_cast<int>(integer_of(*n, "trials", 1, kMaxTrials));
+  if (const Node* n = root.find("layout")) study.layouts = parse_layouts(*n);
   const Node* spp = root.find("spp");
   study.spp = spp != nullptr ? parse_spp(*spp) : std::vector<int>{1, 4, 16, 64, 256};
   const Node* patterns = root.find("patterns");
@@ -170,9 +201,10 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
       *patterns, "patterns", "[\"jittered\"]",
       [](const std::string& t, const std::string& place) { return PatternChoice(parse_spec(t, place)); });
   if (const Node* n = root.find("filters")) {
-    study.filters = parse_specs<Filter>(*n, "filters", "[\"box\"]", [](const std::string& t, const std::string& place) {
-      return Filter(parse_spec(t, place));
-    });
+    study.filters =
+        parse_specs<Filter>(*n, "filters", "[\"box\"]", [&](const std::string& t, const std::string& place) {
+          return make_filter(t, place, std::filesystem::path(file).parent_path(), study.text);
+        });
   } else {
     study.filters = {Filter(parse_spec("box", file))};
   }
@@ -181,7 +213,11 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
   } else {
     study.estimators = {make_estimator("ratio", file)};
   }
-  if (const Node* n = root.find("measures")) check_measures(*n);
+  if (const Node* n = root.find("measures")) {
+    study.measures = parse_measures(*n);
+  } else {
+    study.measures.add(Measure::error);
+  }
   if (const Node* n = root.find("images")) study.images = parse_images(*n);
   study.scenes = parse_scenes(root, file, study.text);
   return study;

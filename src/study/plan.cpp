@@ -3,10 +3,30 @@
 
 #include "core/error.h"
 #include "engine/render.h"
+#include "engine/samples.h"
 #include "study/file_names.h"
 #include "study/study.h"
 
 namespace moire {
+
+namespace {
+
+// Throws where the pattern cannot have n samples per pixel in the layout.
+void require_samples(const Study& study, const PatternChoice& pattern, Layout layout, int n) {
+  if (layout == Layout::pixel) {
+    // Making one finds what the count alone does not say, such as a bank of point sets that memory cannot hold.
+    Pattern(pattern, n, Draw{study.seed, 0});
+    return;
+  }
+  for (const NamedScene& scene : study.scenes) {
+    for (const Filter& filter : study.filters) {
+      const Grid grid = scene.image.grid();
+      pattern.area_count({grid.width + 2 * filter.apron(), grid.height + 2 * filter.apron()}, n);
+    }
+  }
+}
+
+}  // namespace
 
 std::uint32_t trials_of(const Study& study, const PatternChoice& pattern) {
   return pattern.varies() ? static_cast<std::uint32_t>(study.trials) : 1;
@@ -15,8 +35,9 @@ std::uint32_t trials_of(const Study& study, const PatternChoice& pattern) {
 std::vector<Case> plan(const Study& study) {
   std::uint64_t rows = 0;
   for (const PatternChoice& pattern : study.patterns) {
-    // Making one finds what the count alone does not say, such as a bank of point sets that memory cannot hold.
-    for (const int n : study.spp) Pattern(pattern, n, Draw{study.seed, 0});
+    for (const Layout layout : study.layouts) {
+      for (const int n : study.spp) require_samples(study, pattern, layout, n);
+    }
     rows += trials_of(study, pattern);
   }
   check_file_names(study);
@@ -27,7 +48,7 @@ std::vector<Case> plan(const Study& study) {
   }
   // Each factor is compared before it is multiplied, so that nothing overflows.
   for (const std::size_t factor :
-       {study.scenes.size(), study.spp.size(), study.filters.size(), study.estimators.size()}) {
+       {study.scenes.size(), study.layouts.size(), study.spp.size(), study.filters.size(), study.estimators.size()}) {
     if (factor != 0 && rows > kMaxRows / factor) {
       throw Error("study", fmt::format("the plan has more than {} rows; name fewer scenes, patterns, spp, filters or "
                                        "trials",
@@ -39,13 +60,15 @@ std::vector<Case> plan(const Study& study) {
   cases.reserve(rows);
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
   for (std::uint32_t scene = 0; scene < size(study.scenes); ++scene) {
-    for (std::uint32_t pattern = 0; pattern < size(study.patterns); ++pattern) {
-      const std::uint32_t trials = trials_of(study, study.patterns[pattern]);
-      for (std::uint32_t spp = 0; spp < size(study.spp); ++spp) {
-        for (std::uint32_t filter = 0; filter < size(study.filters); ++filter) {
-          for (std::uint32_t estimator = 0; estimator < size(study.estimators); ++estimator) {
-            for (std::uint32_t trial = 0; trial < trials; ++trial) {
-              cases.push_back({scene, pattern, spp, filter, estimator, trial});
+    for (std::uint32_t layout = 0; layout < size(study.layouts); ++layout) {
+      for (std::uint32_t pattern = 0; pattern < size(study.patterns); ++pattern) {
+        const std::uint32_t trials = trials_of(study, study.patterns[pattern]);
+        for (std::uint32_t spp = 0; spp < size(study.spp); ++spp) {
+          for (std::uint32_t filter = 0; filter < size(study.filters); ++filter) {
+            for (std::uint32_t estimator = 0; estimator < size(study.estimators); ++estimator) {
+              for (std::uint32_t trial = 0; trial < trials; ++trial) {
+                cases.push_back({scene, pattern, spp, filter, estimator, trial, layout});
+              }
             }
           }
         }
@@ -56,8 +79,9 @@ std::vector<Case> plan(const Study& study) {
 }
 
 std::string describe(const Study& study, const Case& c) {
-  return fmt::format("{} {} {} {} {} {}", study.scenes[c.scene].name, study.patterns[c.pattern].text(),
-                     study.spp[c.spp], study.filters[c.filter].text(), study.estimators[c.estimator].text, c.trial);
+  return fmt::format("{} {} {} {} {} {}{}", study.scenes[c.scene].name, study.patterns[c.pattern].text(),
+                     study.spp[c.spp], study.filters[c.filter].text(), study.estimators[c.estimator].text, c.trial,
+                     study.layouts[c.layout] == Layout::image ? " image" : "");
 }
 
 }  // namespace moire

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -19,20 +18,17 @@
 #include "measure/statistics.h"
 #include "study/columns.h"
 #include "study/file_names.h"
+#include "study/optional_measures.h"
+#include "study/sample_maker.h"
 #include "study/schedule.h"
+#include "study/stopwatch.h"
 
 namespace moire {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Active pixels, over all filters, whose exact values (16 bytes) and moments over trials (16 bytes per estimator) a
 // batch of scenes may hold.
 constexpr std::int64_t kBatchPixels = std::int64_t{1} << 23;
-
-std::int64_t nanoseconds_since(Clock::time_point start) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-}
 
 // Errors of the active pixels, and the tallies of the regions. Pixels without a value of their own are exact by
 // definition and only counted.
@@ -54,18 +50,6 @@ void measure(const Truth& truth, CaseResult& result) {
   result.horizon = horizon.finish();
   all.add_exact(std::int64_t{truth.rows.grid().width} * truth.rows.grid().height - counted);
   result.all = all.finish();
-}
-
-std::vector<std::uint8_t> horizon_pixels(const TestImage& scene, const Filter& filter, const ActiveRows& rows) {
-  if (scene.info().meets_horizon == nullptr) return {};
-  std::vector<std::uint8_t> horizon;
-  bool any = false;
-  const double r = filter.radius();
-  for_each_active(rows, [&](int x, int y, std::int64_t) {
-    horizon.push_back(scene.meets_horizon({x, y}, {{0.5 - r, 0.5 - r}, {0.5 + r, 0.5 + r}}));
-    any |= horizon.back() != 0;
-  });
-  return any ? horizon : std::vector<std::uint8_t>{};
 }
 
 void set_images(const Study& study, const Case& c, Row& row) {
@@ -138,7 +122,7 @@ class Moments {
   // Adds a trial; after the last one of `trials` sets the columns.
   void add(const Case& c, std::uint32_t trials, CaseResult& result) {
     if (trials < 2) return;
-    const auto key = std::tuple(c.scene, c.filter, c.estimator);
+    const auto key = std::tuple(c.layout, c.scene, c.filter, c.estimator);
     TrialMoments& moments = by_case_.try_emplace(key, result.error.size()).first->second;
     moments.add(result.error);
     if (c.trial + 1 < trials || result.error.empty()) return;
@@ -149,28 +133,20 @@ class Moments {
   void clear() { by_case_.clear(); }
 
  private:
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TrialMoments> by_case_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, TrialMoments> by_case_;
 };
 
 }  // namespace
 
-Truth find_truth(const TestImage& scene, const Filter& filter) {
-  const auto start = Clock::now();
-  ActiveRows rows = enumerate(scene, filter.radius());
-  Reference reference = exact(scene, filter, rows);
-  std::vector<std::uint8_t> horizon = horizon_pixels(scene, filter, rows);
-  return {std::move(rows), std::move(reference), std::move(horizon), nanoseconds_since(start)};
-}
-
-CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, std::int64_t setup_ns,
-                    const Truth& truth, bool exhaustive) {
+CaseResult run_case(const Study& study, const Case& c, Samples samples, std::int64_t setup_ns, const Truth& truth,
+                    bool exhaustive) {
   const NamedScene& scene = study.scenes[c.scene];
   const Grid grid = scene.image.grid();
   CaseResult result;
-  const auto start = Clock::now();
-  result.got = render(scene.image, pattern, study.filters[c.filter], study.estimators[c.estimator].value, truth.rows,
+  const Stopwatch time;
+  result.got = render(scene.image, samples, study.filters[c.filter], study.estimators[c.estimator].value, truth.rows,
                       exhaustive);
-  const std::int64_t render_ns = nanoseconds_since(start);
+  const std::int64_t render_ns = time.nanoseconds();
   measure(truth, result);
 
   Row& row = result.row;
@@ -180,6 +156,7 @@ CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, s
   row.set("filter", study.filters[c.filter].text());
   row.set("estimator", study.estimators[c.estimator].text);
   row.set("trial", std::int64_t{c.trial});
+  row.set("layout", std::string(layout_names()[static_cast<std::size_t>(study.layouts[c.layout])]));
   row.set("width", std::int64_t{grid.width});
   row.set("height", std::int64_t{grid.height});
   row.set("seed", static_cast<std::int64_t>(study.seed));
@@ -230,12 +207,12 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
     }
     const auto run_key = [&](std::size_t i) {
       const Case& c = cases[i];
-      return std::tuple(c.pattern, c.spp, c.trial, c.scene, c.filter, c.estimator);
+      return std::tuple(c.pattern, c.spp, c.trial, c.layout, c.scene, c.filter, c.estimator);
     };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return run_key(a) < run_key(b); });
 
-    std::optional<Pattern> pattern;
-    std::int64_t setup_ns = 0;
+    OptionalMeasures optional(study);
+    SampleMaker maker(study);
     const Case* previous = nullptr;
     for (const std::size_t index : order) {
       if (stopped()) break;
@@ -243,15 +220,11 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
       const PatternChoice& choice = study.patterns[c.pattern];
       const bool same_count = previous != nullptr && previous->pattern == c.pattern && previous->spp == c.spp;
       if (!same_count) moments.clear();
-      if (!same_count || previous->trial != c.trial) {
-        pattern.reset();  // before the next one is made: a bank can be large
-        const auto start = Clock::now();
-        pattern.emplace(choice, study.spp[c.spp], Draw{study.seed, c.trial});
-        setup_ns = nanoseconds_since(start);
-      }
       previous = &c;
       const Truth& truth = batch.truths.at({c.scene, c.filter});
-      CaseResult result = run_case(study, c, *pattern, setup_ns, truth);
+      const Samples samples = maker.samples(c);
+      CaseResult result = run_case(study, c, samples, maker.time_ns(), truth);
+      optional.add(c, maker, truth, result);
       if (schedule.moments[index]) moments.add(c, trials_of(study, choice), result);
       Row& row = rows[index];
       if (!row.cells().empty()) check_again(study, c, row, result.row);

@@ -7,25 +7,14 @@
 #include <functional>
 #include <vector>
 
-#include "engine/active_rows.h"
-#include "engine/exact.h"
 #include "engine/render.h"
+#include "engine/samples.h"
 #include "measure/error.h"
-#include "patterns/pattern.h"
 #include "study/results.h"
 #include "study/study.h"
+#include "study/truth.h"
 
 namespace moire {
-
-// What the cases of one scene and filter share: the active pixels and their exact values.
-struct Truth {
-  ActiveRows rows;
-  Reference exact;
-  std::vector<std::uint8_t> horizon;  // per active pixel: 1 where its window meets the horizon; empty: none does
-  std::int64_t time_ns = 0;           // wall time of both
-};
-
-Truth find_truth(const TestImage& scene, const Filter& filter);
 
 // One case: its image, its errors and its row of results.
 struct CaseResult {
@@ -35,17 +24,18 @@ struct CaseResult {
   Row row;
 };
 
-// Renders and measures one case of the study. `setup_ns` is the wall time that making the pattern took. The pattern
-// must have the case's count and draw, and `truth` must be that of its scene and filter.
+// Renders and measures one case of the study. `setup_ns` is the wall time that making the samples took. The samples
+// must have the case's pattern, layout, count and draw, and `truth` must be that of its scene and filter.
 //
-// Columns of the row: the key (scene, pattern, spp, filter, estimator, trial as the study writes them; width, height,
-// seed); samples_total, samples_evaluated, pixels_total, pixels_active, fallbacks; time_setup_ns, time_render_ns,
-// time_reference_ns, time_threads (wall times; cases that share a pattern or a reference repeat its time); the errors
-// over `active` and over `all` pixels; bias_sq_active and variance_active (over trials, in the last trial's row alone,
-// and only if every trial was run); reference_method, error_bound (guaranteed, absolute, the largest of the image),
-// error_bound_rms, reference_limited; status; the image files, relative to the folder of the results.
-CaseResult run_case(const Study& study, const Case& c, const Pattern& pattern, std::int64_t setup_ns,
-                    const Truth& truth, bool exhaustive = false);
+// Columns of the row: the key (scene, pattern, spp, filter, estimator, trial, layout as the study writes them; width,
+// height, seed); samples_total, samples_evaluated, pixels_total, pixels_active, fallbacks; time_setup_ns,
+// time_render_ns, time_reference_ns, time_threads (wall times; cases that share a pattern or a reference repeat its
+// time); the errors over `active` and over `all` pixels; bias_sq_active and variance_active (over trials, in the last
+// trial's row alone, and only if every trial was run); reference_method, error_bound (guaranteed, absolute, the largest
+// of the image), error_bound_rms, reference_limited; status; the image files, relative to the folder of the results.
+// run() adds those of optional_measures.h.
+CaseResult run_case(const Study& study, const Case& c, Samples samples, std::int64_t setup_ns, const Truth& truth,
+                    bool exhaustive = false);
 
 // What a run tells and asks. Every function may be empty; all are called from the thread that runs the study.
 struct Observer {

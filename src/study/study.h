@@ -11,6 +11,7 @@
 #include "engine/render.h"
 #include "filters/filter.h"
 #include "patterns/pattern.h"
+#include "study/measures.h"
 #include "study/scene_file.h"
 #include "testimages/testimage.h"
 
@@ -32,16 +33,18 @@ struct EstimatorChoice {
 enum class Images : std::uint8_t { none, first_trial, all };
 
 // The defaults are those of a study file. Patterns and scenes have none; spp, filters and estimators are filled in by
-// parse_study: 1, 4, 16, 64 and 256; box; ratio.
+// parse_study: 1, 4, 16, 64 and 256; box; ratio; error.
 struct Study {
   std::string name;        // default: the file's name without .toml
-  std::string text;        // the study file, followed by the scene files that it names
+  std::string text;        // the study file, followed by the kernel and scene files that it names
   std::uint64_t seed = 1;  // names the experiment
   int trials = 8;          // replicates t = 0 .. trials - 1 of patterns that vary
+  std::vector<Layout> layouts = {Layout::pixel};
   std::vector<int> spp;
   std::vector<PatternChoice> patterns;
   std::vector<Filter> filters;
   std::vector<EstimatorChoice> estimators;
+  MeasureSet measures;
   Images images = Images::first_trial;
   std::vector<NamedScene> scenes;
 };
@@ -55,16 +58,17 @@ std::uint32_t trials_of(const Study& study, const PatternChoice& pattern);
 
 // One image to compute: indices into the study's lists, and the trial.
 struct Case {
-  std::uint32_t scene = 0, pattern = 0, spp = 0, filter = 0, estimator = 0, trial = 0;
+  std::uint32_t scene = 0, pattern = 0, spp = 0, filter = 0, estimator = 0, trial = 0, layout = 0;
   friend bool operator==(const Case&, const Case&) = default;
 };
 
-// Every case in the order scene, pattern, spp, filter, estimator, trial, the last one fastest. A pattern that does not
-// vary has trial 0 alone. Throws Error when a pattern cannot have a count, naming the nearest ones, and when the plan
-// is too long.
+// Every case in the order scene, layout, pattern, spp, filter, estimator, trial, the last one fastest. A pattern that
+// does not vary has trial 0 alone. Throws Error when a pattern cannot have a count, naming the nearest ones, and when
+// the plan is too long.
 std::vector<Case> plan(const Study& study);
 
-// The key of a case on one line: scene, pattern, spp, filter, estimator and trial, separated by blanks.
+// The key of a case on one line: scene, pattern, spp, filter, estimator and trial, separated by blanks; then the layout
+// if it is not `pixel`.
 std::string describe(const Study& study, const Case& c);
 
 }  // namespace moire

@@ -9,6 +9,7 @@
 #include "core/args.h"
 #include "measure/statistics.h"
 #include "study/columns.h"
+#include "study/filter_ranking.h"
 #include "study/scene_file.h"
 
 namespace moire {
@@ -28,7 +29,7 @@ struct Series {
   std::vector<std::size_t> cases;  // by first appearance
 };
 
-constexpr std::string_view kSeriesKey[] = {"scene", "pattern", "filter", "estimator"};
+constexpr std::string_view kSeriesKey[] = {"scene", "pattern", "filter", "estimator", "layout"};
 
 std::vector<std::string> series_key(const Row& row) {
   std::vector<std::string> key;
@@ -193,8 +194,28 @@ void copy_key(const Case& c, const std::string_view (&names)[n], Row& to) {
   if (c.family) to.set("scene", std::string(scene_family(c.rows.front()->text("scene"))));
 }
 
+// The columns of optional_measures.h, where the rows have them.
+void set_optional(Row& row, const Case& c) {
+  const auto has = [&](const std::string& name) { return c.rows.front()->find(name) != nullptr; };
+  for (const std::string region : {"coverage_active", "coverage_all", "filter_active", "filter_all"}) {
+    if (!has("rmse_" + region)) continue;
+    const Errors errors = errors_of(c, region);
+    set_finite(row, "rmse_" + region, rms_over_trials(errors.mse, errors.weights));
+    if (region.starts_with("coverage")) set_interval(row, "rmse_" + region, rms_interval(errors.mse, errors.weights));
+  }
+  for (const std::string name : {"flat_field_rms", "ringing_rms_got", "ringing_rms_exact"}) {
+    if (!has(name)) continue;
+    std::vector<double> squares;
+    for (const Row* x : c.rows) squares.push_back(x->number(name) * x->number(name));
+    set_finite(row, name, rms_over_trials(squares));
+  }
+  for (const std::string name : {"overshoot_got", "overshoot_exact", "undershoot_got", "undershoot_exact"}) {
+    if (has(name)) set_finite(row, name, largest_of(c, name));
+  }
+}
+
 Row summary_row(const Case& c) {
-  constexpr std::string_view kKey[] = {"scene", "pattern", "spp", "filter", "estimator"};
+  constexpr std::string_view kKey[] = {"scene", "pattern", "spp", "filter", "estimator", "layout"};
   Row row;
   copy_key(c, kKey, row);
   row.set("n_trials", trial_count(c));
@@ -213,6 +234,7 @@ Row summary_row(const Case& c) {
   set_finite(row, "error_bound", largest_of(c, "error_bound"));
   row.set("reference_limited", is_limited(c));
   row.set("n_scenes", line_count(c));
+  set_optional(row, c);
   return row;
 }
 
@@ -302,6 +324,7 @@ Summary summarize(const Table& rows) {
     }
     summary.rows.push_back(std::move(row));
   }
+  summary.filters = rank_filters(summary.rows);
   return summary;
 }
 

@@ -61,6 +61,25 @@ TEST_SUITE("unit") {
     CHECK(mentions(message(""), "a name is missing"));
   }
 
+  TEST_CASE("a path must be given, starts from its folder and fits into a name") {
+    constexpr Param kPath[] = {path("path", "a file"), number("n", 1, 0, 9, "a number")};
+    const auto make = [&](std::string_view text, const std::string& folder) {
+      Spec s = parse_spec(text, "here");
+      for (auto& [key, value] : s.given) value.folder = folder;
+      return Args("thing", kPath, s.given, s.place);
+    };
+    CHECK(make("thing:path=a/b.csv", "").path("path") == "a/b.csv");
+    CHECK(make("thing:path=a/b.csv", "deep").path("path") == "deep/a/b.csv");
+    CHECK(make("thing:path=a/b.csv", "deep").text("path") == "a/b.csv");
+    CHECK(make("thing:path=/a/b.csv", "deep").path("path") == "/a/b.csv");
+    CHECK_THROWS_WITH_AS(make("thing", ""), "here: thing needs \"path\": a file", Error);
+    CHECK_THROWS_AS(make("thing:path=", ""), Error);
+    CHECK_THROWS_AS(make("thing:path=a\tb", ""), Error);
+    CHECK_THROWS_AS(make("thing:path=a`b", ""), Error);
+    CHECK(mentions(message("thing:path=a,b.csv"), "cannot have a comma"));
+    CHECK_FALSE(mentions(message("thing:k=1,b.csv"), "comma"));
+  }
+
   TEST_CASE("the distance between names counts a swap of neighbours as one slip") {
     CHECK(edit_distance("", "abc") == 3);
     CHECK(edit_distance("jitterd", "jittered") == 1);

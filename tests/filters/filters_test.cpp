@@ -1,6 +1,7 @@
 // Properties of every filter in the catalogue, at its defaults and at the ends of its parameters.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -8,32 +9,33 @@
 
 #include "core/error.h"
 #include "curve/quadrature.h"
+#include "filter_list.h"
 #include "filters/filter.h"
 
 using namespace moire;
 
 namespace {
 
-// Each filter plain, and with each of its parameters at either end (numbers) or at each choice.
+// Each filter with its defaults, with each of its choices and with each number at either end; and some between.
 std::vector<Filter> catalogue() {
-  std::vector<Filter> all;
+  std::vector<std::string> texts = test::filter_texts();
   for (const FilterInfo* info : filters()) {
-    const std::string name(info->name);
-    all.emplace_back(parse_spec(name, "test"));
+    if (std::any_of(info->params.begin(), info->params.end(), [](const Param& p) { return p.required; })) continue;
     for (const Param& p : info->params) {
-      const std::string key = name + ":" + std::string(p.name) + "=";
-      if (p.kind == Param::Kind::number || p.kind == Param::Kind::integer) {
-        all.emplace_back(parse_spec(key + shortest(p.min), "test"));
-        all.emplace_back(parse_spec(key + shortest(p.max), "test"));
-      } else if (p.kind == Param::Kind::choice) {
-        for (std::size_t begin = 0; begin < p.choices.size();) {
-          const std::size_t end = std::min(p.choices.find('|', begin), p.choices.size());
-          all.emplace_back(parse_spec(key + std::string(p.choices.substr(begin, end - begin)), "test"));
-          begin = end + 1;
-        }
-      }
+      if (p.kind != Param::Kind::number && p.kind != Param::Kind::integer) continue;
+      const std::string key = std::string(info->name) + ":" + std::string(p.name) + "=";
+      texts.push_back(key + shortest(p.min));
+      texts.push_back(key + shortest(p.max));
     }
   }
+  for (const char* text : {"lagrange:order=2", "lagrange:order=8", "cubic-spline:lobes=3", "sinc:radius=3.7",
+                           "lanczos:a=16,blur=2", "mitchell:b=8,c=8", "mitchell:b=-8,c=-8", "mitchell:b=-8,c=8",
+                           "windowed-sinc:window=kaiser,beta=32,radius=1", "windowed-sinc:window=parzen,radius=2.5",
+                           "windowed-sinc:window=bohman,radius=1.01", "pbrt-sinc:radius=16,tau=1"}) {
+    texts.emplace_back(text);
+  }
+  std::vector<Filter> all;
+  for (const std::string& text : texts) all.emplace_back(parse_spec(text, "test"));
   return all;
 }
 

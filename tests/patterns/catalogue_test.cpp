@@ -127,21 +127,23 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("the counts below and above any n are counts themselves") {
-    for (const PatternInfo* info : patterns()) {
-      CAPTURE(info->name);
+    for (const std::string& text : variants()) {
+      CAPTURE(text);
+      const PatternChoice choice(parse_spec(text, "test"));
+      const auto counts = [&](int n) { return choice.info().counts(choice.args(), n); };
       std::vector<int> around = {kMaxSamples - 1, kMaxSamples, 4095 * 4095 - 1, 4095 * 4095, 4095 * 4095 + 1, 46340};
       for (int n = 1; n <= 300; ++n) around.push_back(n);
       for (const int n : around) {
         CAPTURE(n);
-        const auto [below, above] = info->counts(n);
+        const auto [below, above] = counts(n);
         CHECK(below >= 1);
         CHECK(below <= n);
         CHECK(above >= n);
         CHECK(above <= kMaxSamples);
         CHECK((below == n) == (above == n));
         for (const int c : {below, above}) {
-          CHECK(info->counts(c).below == c);
-          CHECK(info->counts(c).above == c);
+          CHECK(counts(c).below == c);
+          CHECK(counts(c).above == c);
         }
       }
     }
@@ -149,13 +151,13 @@ TEST_SUITE("unit") {
 
   TEST_CASE("square counts are the squares") {
     for (int m = 1; m <= 4096; ++m) {
-      REQUIRE(square_count(m * m).below == m * m);
-      REQUIRE(square_count(m * m).above == m * m);
-      if (m < 4096) REQUIRE(square_count(m * m + 1).below == m * m);
-      if (m < 4096) REQUIRE(square_count(m * m + 1).above == (m + 1) * (m + 1));
-      if (m > 1) REQUIRE(square_count(m * m - 1).below == (m - 1) * (m - 1));
+      REQUIRE(square_count({}, m * m).below == m * m);
+      REQUIRE(square_count({}, m * m).above == m * m);
+      if (m < 4096) REQUIRE(square_count({}, m * m + 1).below == m * m);
+      if (m < 4096) REQUIRE(square_count({}, m * m + 1).above == (m + 1) * (m + 1));
+      if (m > 1) REQUIRE(square_count({}, m * m - 1).below == (m - 1) * (m - 1));
     }
-    CHECK(square_count(std::numeric_limits<int>::max()).below == kMaxSamples);
+    CHECK(square_count({}, std::numeric_limits<int>::max()).below == kMaxSamples);
   }
 
   TEST_CASE("a count that a pattern cannot have is refused with the nearest counts that it can") {

@@ -60,6 +60,6 @@ inline PointSet set_of(const std::string& text, int n, Draw draw = {}) {
 }
 
 // The count nearest to n, from above, that the pattern can have.
-inline int usable(const PatternChoice& choice, int n) { return choice.info().counts(n).above; }
+inline int usable(const PatternChoice& choice, int n) { return choice.info().counts(choice.args(), n).above; }
 
 }  // namespace moire::test

@@ -170,6 +170,8 @@ TEST_SUITE("unit") {
         {study_text(ok + "filters = [\"gaussian:sigma=0\"]\n"), "s.toml:2:12", "sigma"},
         {study_text(ok + "estimators = [\"ration\"]\n"), "s.toml:2:15", "did you mean ratio"},
         {study_text(ok + "measures = [\"eror\"]\n"), "s.toml:2:13", "did you mean error"},
+        {study_text(ok + "measures = [\"error\", \"error\"]\n"), "s.toml:2:22", "twice"},
+        {study_text(ok + "measures = [\"coverage\"]\n"), "s.toml:2:12", "no \"error\""},
         {study_text(ok + "images = \"some\"\n"), "s.toml:2:10", "first-trial"},
         {study_text(ok + "images = true\n"), "s.toml:2:10", "text in quotes"},
         {study_text(ok + "name = 3\n"), "s.toml:2:8", "text in quotes"},

@@ -36,7 +36,8 @@ if [[ ${3:-} == --update ]]; then
 else
   diff -u --label README.md --label 'what its commands print' "$readme" "$work/again" || status=1
 fi
-[[ ! -s $work/stderr ]] || { cat "$work/stderr" && status=1; }
+# Notes are for a person, with times in them; anything else on standard error is an error.
+if grep -v '^note: ' "$work/stderr"; then status=1; fi
 ((commands >= 5)) || { echo "README.md: only $commands commands found" && status=1; }
 for what in patterns filters scenes; do
   while read -r name _; do

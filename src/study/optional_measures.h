@@ -1,0 +1,44 @@
+// The measures that a study names beyond `error`, as columns of its rows, with what cases share kept between them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "measure/excursion.h"
+#include "study/coverage.h"
+#include "study/run.h"
+#include "study/sample_maker.h"
+
+namespace moire {
+
+class OptionalMeasures {
+ public:
+  explicit OptionalMeasures(const Study& study) : study_(study) {}
+
+  // Adds the columns of the measures that the study names; nothing is computed for others.
+  //   coverage: n_pixels, bias, mse, rmse and max_abs of got - coverage (_coverage_active, _coverage_all) and of exact
+  //     - coverage (_filter_active, _filter_all). Coverage is the box filter's exact value; `active` are the pixels
+  //     that are active under the filter or under the box.
+  //   flat-field: flat_field_rms (flat_field.h), the same for all scenes and estimators.
+  //   ringing: overshoot, undershoot and ringing_rms (measure/excursion.h, over all pixels), each _got and _exact.
+  void add(const Case& c, SampleMaker& maker, const Truth& truth, CaseResult& result);
+
+ private:
+  struct OfExact {
+    CoverageErrors coverage;
+    Excursion excursion;
+  };
+  const Truth& box(std::uint32_t scene);
+  const OfExact& of_exact(const Case& c, const Truth& truth);
+  double flat_field(const Case& c, SampleMaker& maker);
+
+  const Study& study_;
+  std::map<std::uint32_t, Truth> boxes_;                                            // by scene
+  std::map<std::pair<std::uint32_t, std::uint32_t>, OfExact> exact_;                // by scene and filter
+  std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> flat_of_;  // pattern, spp, trial, layout
+  std::map<std::uint32_t, double> flat_;                                            // of these, by filter
+};
+
+}  // namespace moire
