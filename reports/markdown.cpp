@@ -13,6 +13,7 @@
 #include "reports/filter_comparison.h"
 #include "reports/filter_table.h"
 #include "reports/markdown_table.h"
+#include "reports/noise_report.h"
 #include "study/columns.h"
 #include "study/scene_file.h"
 
@@ -285,6 +286,7 @@ std::string markdown_report(std::string_view study_name, const Table& rows, cons
   add_contrast(out, summary, report);
   out += filter_comparison(summary);
   add_filters(out, filters);
+  out += noise_report(summary);
   if (!summary.rows.empty()) add_ranking(out, report);
   add_what_was_run(out, rows, report);
   for (const std::string& pattern : cases.patterns()) add_pattern(out, report, pattern);

@@ -10,6 +10,7 @@
 
 #include "reports/cases.h"
 #include "reports/contrast.h"
+#include "reports/noise_report.h"
 #include "reports/text_table.h"
 #include "study/columns.h"
 
@@ -94,7 +95,8 @@ std::string ranking(const Summary& summary, const Cases& cases, bool bold) {
 std::string terminal_tables(const Summary& summary, bool bold) {
   const Cases cases(summary.rows), slopes(summary.slopes);
   const double none = std::nan("");
-  std::string text = wrapped(slope_contrast(summary, ""), kWidth) + ranking(summary, cases, bold);
+  std::string text =
+      wrapped(slope_contrast(summary, ""), kWidth) + ranking(summary, cases, bold) + noise_text(summary, bold);
   for (const std::string& scene : cases.scenes()) {
     for (const Lines& table : lines_of(cases)) {
       TextLines lines;

@@ -45,6 +45,14 @@ inline TestImage disks(std::vector<double> circles, Grid grid = {64, 64}) {
   return {find_testimage("disks", ""), {{"disks", rows(std::move(circles), 3)}}, grid, "test"};
 }
 
+// Random small disks; radii between the two.
+inline TestImage noise_field(int count, double min_radius, double max_radius, int seed = 1, Grid grid = {64, 64}) {
+  return {find_testimage("noise-field", ""),
+          {{"count", one(count)}, {"radius", list({min_radius, max_radius})}, {"seed", one(seed)}},
+          grid,
+          "test"};
+}
+
 // `homography` row-major, pixels to plane; `extent` u0, u1, v0, v1.
 inline TestImage board(std::vector<double> homography, std::vector<double> extent, Grid grid = {64, 64}) {
   return {find_testimage("checkerboard", ""),

@@ -7,9 +7,15 @@
 #include <vector>
 
 #include "app/definition.h"
+#include "core/args.h"
+#include "core/sum.h"
+#include "reports/csv.h"
+#include "reports/file.h"
 #include "reports/images.h"
 #include "reports/preview.h"
+#include "reports/spectrum_preview.h"
 #include "study/file_names.h"
+#include "study/noise_measures.h"
 
 namespace moire {
 namespace {
@@ -86,6 +92,21 @@ std::vector<Attribute> case_attributes(const char* kind, const Study& study, con
           {"moire:params", params_json(&pattern, filter)}};
 }
 
+// Power over its mean without zero frequency, so that white noise is the same grey in every picture.
+Raster relative_preview(Grid grid, std::vector<float> power) {
+  Sum sum;
+  for (const float p : power) sum.add(static_cast<double>(p));
+  const auto center = static_cast<std::size_t>(std::int64_t{grid.height / 2} * grid.width + grid.width / 2);
+  const double mean =
+      (sum.value() - static_cast<double>(power[center])) / std::max(1.0, static_cast<double>(power.size()) - 1);
+  if (mean > 0) {
+    for (float& p : power) p = static_cast<float>(static_cast<double>(p) / mean);
+  }
+  Raster picture = spectrum_preview(grid, power, PowerScale::linear);
+  picture.text.emplace_back("moire:unit", shortest(mean) + ", the mean power without zero frequency");
+  return picture;
+}
+
 bool all_there(const std::string& stem, std::initializer_list<const char*> endings) {
   return std::all_of(endings.begin(), endings.end(),
                      [&](const char* ending) { return std::filesystem::exists(stem + ending); });
@@ -125,6 +146,28 @@ void write_case_images(const std::string& folder, const Study& study, const Case
   write_exr(stem + ".error.exr", grid, error, case_attributes("error", study, c));
   write_png(stem + ".got.png", reconstruction_preview(grid, got));
   write_png(stem + ".error.png", error_preview(grid, error, result.active.p995));
+}
+
+void write_spectra_files(const std::string& folder, const Study& study, const Case& c, const Spectra& spectra) {
+  const Grid grid{spectra.width, spectra.height};
+  const std::string stem = folder + "/" + spectra_stem(study, c);
+  const auto write = [&](const char* ending, const char* kind, const std::vector<double>& power) {
+    std::vector<float> image;
+    for (const double p : power) image.push_back(to_float(p));
+    write_exr(stem + ending, grid, image, case_attributes(kind, study, c));
+    return image;
+  };
+  const std::vector<float> total = write(".spectrum.exr", "spectrum", spectra.total);
+  if (spectra.has_split()) {
+    write(".structured.exr", "structured spectrum", spectra.structured);
+    write(".noise.exr", "noise spectrum", spectra.noise);
+  }
+  write_png(stem + ".spectrum.png", relative_preview(grid, total));
+  write_whole(stem + ".spectrum.csv", csv(radial_rows(spectra)));
+}
+
+bool has_spectra_files(const std::string& folder, const Study& study, const Case& c) {
+  return all_there(folder + "/" + spectra_stem(study, c), {".spectrum.exr", ".spectrum.png", ".spectrum.csv"});
 }
 
 bool has_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter) {

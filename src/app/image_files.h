@@ -26,8 +26,13 @@ void write_exact_images(const std::string& folder, const Study& study, std::uint
 void write_case_images(const std::string& folder, const Study& study, const Case& c, const Truth& truth,
                        const CaseResult& result);
 
+// The spectra of a case's errors: .spectrum.exr (total), .structured.exr and .noise.exr where there is the split, a
+// .spectrum.png of the total over its mean and the radial means as .spectrum.csv.
+void write_spectra_files(const std::string& folder, const Study& study, const Case& c, const Spectra& spectra);
+
 // Whether those files are there. They appear whole, so that one that is there is finished.
 bool has_exact_images(const std::string& folder, const Study& study, std::uint32_t scene, std::uint32_t filter);
+bool has_spectra_files(const std::string& folder, const Study& study, const Case& c);
 bool has_case_images(const std::string& folder, const Study& study, const Case& c);
 
 }  // namespace moire

@@ -47,6 +47,7 @@ void write_reports(const std::string& folder, const Study& study, const Table& r
     write_whole(folder + "/filters.csv", csv(filters));
   }
   if (!summary.filters.empty()) write_whole(folder + "/filter_ranking.csv", csv(summary.filters));
+  if (!summary.noise.empty()) write_whole(folder + "/noise_ranking.csv", csv(summary.noise));
   const std::string report = folder + "/report.md";
   write_whole(report, markdown_report(study.name, rows, summary, filters));
   print(terminal_tables(summary, ::isatty(STDOUT_FILENO) != 0));
@@ -65,7 +66,8 @@ Earlier take_up(const std::string& path, const std::string& header, const Study&
 
 // What a new run will not write at once must not stand beside its results as if it were theirs.
 void remove_reports(const std::string& folder) {
-  for (const char* name : {"/results.csv", "/summary.csv", "/filters.csv", "/filter_ranking.csv", "/report.md"}) {
+  for (const char* name :
+       {"/results.csv", "/summary.csv", "/filters.csv", "/filter_ranking.csv", "/noise_ranking.csv", "/report.md"}) {
     std::error_code ignored;  // a file that cannot be removed cannot be written either, which is told then
     std::filesystem::remove(folder + name, ignored);
   }
@@ -107,10 +109,14 @@ Exit execute(const RunOptions& options) {
     observer.case_image = [&](const Case& c, const Truth& truth, const CaseResult& result) {
       write_case_images(options.folder, study, c, truth, result);
     };
+    observer.spectra = [&](const Case& c, const Spectra& spectra) {
+      write_spectra_files(options.folder, study, c, spectra);
+    };
     if (goes_on) {
       observer.has_exact_image = [&](std::uint32_t scene, std::uint32_t filter) {
         return has_exact_images(options.folder, study, scene, filter);
       };
+      observer.has_spectra = [&](const Case& c) { return has_spectra_files(options.folder, study, c); };
       observer.has_case_image = [&](const Case& c) { return has_case_images(options.folder, study, c); };
     }
     observer.progress = [&](std::size_t done, std::size_t due, double share) { progress.step(done, due, share); };

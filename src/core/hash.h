@@ -38,6 +38,7 @@ enum class Axis : std::uint32_t {
   area,        // a set over a whole image: positions, candidates, its shift; the pixel is (0, 0)
   area_order,  // permutations of such a set
   line,      // random lines of a study's scenes; the pixel is (0, 0)
+  field,  // the disks of a noise field: radii in part 0, candidates of centres from part 1 on; the pixel is (0, 0)
 };
 
 // 128 bits that stand for (seed, trial, pixel). Two pixels of one draw with different coordinates modulo 2^32 never

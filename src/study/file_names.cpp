@@ -43,12 +43,16 @@ std::string file_part(std::string_view text) {
   return part;
 }
 
-std::string image_stem(const Study& study, const Case& c) {
+std::string spectra_stem(const Study& study, const Case& c) {
   const std::string& estimator = study.estimators[c.estimator].text;
-  return fmt::format("images/{}_{}_{}_{}{}{}_t{}", file_part(study.scenes[c.scene].name),
+  return fmt::format("images/{}_{}_{}_{}{}{}", file_part(study.scenes[c.scene].name),
                      file_part(study.patterns[c.pattern].text()), study.spp[c.spp],
                      file_part(study.filters[c.filter].text()), estimator == "ratio" ? "" : "_" + file_part(estimator),
-                     study.layouts[c.layout] == Layout::image ? "_image" : "", c.trial);
+                     study.layouts[c.layout] == Layout::image ? "_image" : "");
+}
+
+std::string image_stem(const Study& study, const Case& c) {
+  return fmt::format("{}_t{}", spectra_stem(study, c), c.trial);
 }
 
 std::string exact_stem(const Study& study, std::uint32_t scene, std::uint32_t filter) {

@@ -16,6 +16,9 @@ std::string file_part(std::string_view text);
 // `ratio` follows the filter as _<estimator>, and _image after it says that layout.
 std::string image_stem(const Study& study, const Case& c);
 
+// The same without the trial, followed by .spectrum.exr, ...
+std::string spectra_stem(const Study& study, const Case& c);
+
 // images/<scene>_<filter>, followed by .exact.exr, ...
 std::string exact_stem(const Study& study, std::uint32_t scene, std::uint32_t filter);
 

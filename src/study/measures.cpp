@@ -19,6 +19,11 @@ constexpr MeasureInfo kMeasures[] = {
      "Mitchell and Netravali, \"Reconstruction filters in computer graphics\", 1988 (sample-frequency ripple)"},
     {Measure::ringing, "ringing", "How far an image and its filter's exact image leave [0, 1]",
      "Marschner and Lobb, \"An evaluation of reconstruction filters for volume rendering\", 1994 (overshoot)"},
+    {Measure::spectrum, "spectrum",
+     "What the errors look like: their power by frequency, split into structure (Moire) and noise (grain)",
+     "Ulichney, \"Dithering with blue noise\", 1988; Mannos and Sakrison, \"The effects of a visual fidelity criterion "
+     "on "
+     "the encoding of images\", 1974"},
     {Measure::kernel, "kernel", "The metrics of the study's filters, as `moire filters` prints them", ""},
 };
 static_assert(std::size(kMeasures) == static_cast<std::size_t>(Measure::count_));

@@ -20,8 +20,8 @@
 namespace moire {
 namespace {
 
-constexpr std::array<std::string_view, 10> kStudyKeys = {"name",     "seed",    "trials",     "layout",   "spp",
-                                                         "patterns", "filters", "estimators", "measures", "images"};
+constexpr std::array<std::string_view, 11> kStudyKeys = {
+    "name", "seed", "trials", "layout", "spp", "patterns", "filters", "estimators", "measures", "images", "spectrum"};
 
 // The members of a list that must not be empty.
 const std::vector<Node>& list_of(const Node& node, std::string_view what, std::string_view example) {
@@ -101,6 +101,31 @@ MeasureSet parse_measures(const Node& node) {
     throw Error(node.place, "measures has no \"error\", which summaries and rankings rest on; add it");
   }
   return set;
+}
+
+SpectrumSettings parse_spectrum(const Node& node) {
+  if (node.kind != Node::Kind::table) {
+    throw Error(node.place, fmt::format("spectrum is {}; write a table [spectrum]", kind_name(node.kind)));
+  }
+  constexpr std::string_view kKeys[] = {"window", "pixels_per_degree"}, kWindows[] = {"none", "hann"};
+  SpectrumSettings settings;
+  for (const Node& item : node.items) {
+    if (item.key == "window") {
+      const std::string& name = text_of(item, "window");
+      const auto known = std::find(std::begin(kWindows), std::end(kWindows), name);
+      if (known == std::end(kWindows)) throw Error(item.place, unknown_name("window", name, kWindows));
+      settings.window = static_cast<SpectrumWindow>(known - std::begin(kWindows));
+    } else if (item.key == "pixels_per_degree") {
+      settings.pixels_per_degree = exact_number(item);
+      if (!(settings.pixels_per_degree >= 1 && settings.pixels_per_degree <= 1000)) {
+        throw Error(item.place, fmt::format("pixels_per_degree is {}; give a number from 1 to 1000",
+                                            shortest(settings.pixels_per_degree)));
+      }
+    } else {
+      throw Error(item.key_place, "spectrum: " + unknown_name("key", item.key, kKeys));
+    }
+  }
+  return settings;
 }
 
 Images parse_images(const Node& node) {
@@ -218,6 +243,7 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
   } else {
     study.measures.add(Measure::error);
   }
+  if (const Node* n = root.find("spectrum")) study.spectrum = parse_spectrum(*n);
   if (const Node* n = root.find("images")) study.images = parse_images(*n);
   study.scenes = parse_scenes(root, file, study.text);
   return study;

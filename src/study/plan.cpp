@@ -5,6 +5,7 @@
 #include "engine/render.h"
 #include "engine/samples.h"
 #include "study/file_names.h"
+#include "study/noise_measures.h"
 #include "study/study.h"
 
 namespace moire {
@@ -41,6 +42,15 @@ std::vector<Case> plan(const Study& study) {
     rows += trials_of(study, pattern);
   }
   check_file_names(study);
+  if (study.measures.has(Measure::spectrum)) {
+    for (const NamedScene& scene : study.scenes) {
+      const Grid grid = scene.image.grid();
+      if (std::int64_t{grid.width} * grid.height <= kMaxSpectrumPixels) continue;
+      throw Error("measures", fmt::format("scene \"{}\" has {} x {} pixels, too many for a spectrum; give at most {} "
+                                          "pixels, or leave out \"spectrum\"",
+                                          scene.name, grid.width, grid.height, kMaxSpectrumPixels));
+    }
+  }
   for (const NamedScene& scene : study.scenes) {
     for (const Filter& filter : study.filters) {
       for (const int n : study.spp) require_renderable(scene.image.grid(), filter, n, "scene \"" + scene.name + "\"");

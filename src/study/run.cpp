@@ -18,6 +18,7 @@
 #include "measure/statistics.h"
 #include "study/columns.h"
 #include "study/file_names.h"
+#include "study/noise_measures.h"
 #include "study/optional_measures.h"
 #include "study/sample_maker.h"
 #include "study/schedule.h"
@@ -195,6 +196,7 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
   }
   const auto stopped = [&] { return observer.stop && observer.stop(); };
   Moments moments;
+  NoiseMeasures noise(study);
 
   // Cases lie scene by scene, so that a batch of scenes is a stretch of the plan.
   std::size_t first = 0;
@@ -219,13 +221,20 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
       const Case& c = cases[index];
       const PatternChoice& choice = study.patterns[c.pattern];
       const bool same_count = previous != nullptr && previous->pattern == c.pattern && previous->spp == c.spp;
-      if (!same_count) moments.clear();
+      if (!same_count) {
+        moments.clear();
+        noise.clear();
+      }
       previous = &c;
       const Truth& truth = batch.truths.at({c.scene, c.filter});
       const Samples samples = maker.samples(c);
       CaseResult result = run_case(study, c, samples, maker.time_ns(), truth);
       optional.add(c, maker, truth, result);
-      if (schedule.moments[index]) moments.add(c, trials_of(study, choice), result);
+      if (schedule.moments[index]) {
+        moments.add(c, trials_of(study, choice), result);
+        const std::optional<Spectra> spectra = noise.add(c, trials_of(study, choice), truth, result);
+        if (spectra && observer.spectra && study.images != Images::none) observer.spectra(c, *spectra);
+      }
       Row& row = rows[index];
       if (!row.cells().empty()) check_again(study, c, row, result.row);
       if (schedule.image[index]) observer.case_image(c, truth, result);
@@ -238,6 +247,7 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
       if (observer.progress) observer.progress(done, schedule.due_count, work / total_work);
     }
     moments.clear();
+    noise.clear();
   }
 
   Results results;

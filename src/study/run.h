@@ -10,6 +10,7 @@
 #include "engine/render.h"
 #include "engine/samples.h"
 #include "measure/error.h"
+#include "measure/spectrum.h"
 #include "study/results.h"
 #include "study/study.h"
 #include "study/truth.h"
@@ -33,7 +34,7 @@ struct CaseResult {
 // time); the errors over `active` and over `all` pixels; bias_sq_active and variance_active (over trials, in the last
 // trial's row alone, and only if every trial was run); reference_method, error_bound (guaranteed, absolute, the largest
 // of the image), error_bound_rms, reference_limited; status; the image files, relative to the folder of the results.
-// run() adds those of optional_measures.h.
+// run() adds those of optional_measures.h and noise_measures.h.
 CaseResult run_case(const Study& study, const Case& c, Samples samples, std::int64_t setup_ns, const Truth& truth,
                     bool exhaustive = false);
 
@@ -43,10 +44,13 @@ struct Observer {
   // Images that the study's `images` setting keeps.
   std::function<void(std::uint32_t scene, std::uint32_t filter, const Truth&)> exact_image;
   std::function<void(const Case&, const Truth&, const CaseResult&)> case_image;
+  // The spectra of a case's errors, after its last trial, where the study measures and keeps them.
+  std::function<void(const Case& last, const Spectra&)> spectra;
   // Whether such images are there already: then they are not made. Empty: none are. The second is asked only for
   // cases whose row is there; the images of others are made with it.
   std::function<bool(std::uint32_t scene, std::uint32_t filter)> has_exact_image;
   std::function<bool(const Case&)> has_case_image;
+  std::function<bool(const Case& last)> has_spectra;
   std::function<void(std::size_t done, std::size_t due, double share)> progress;  // cases; share of the work, in (0, 1]
   std::function<bool()> stop;  // asked before each case; true ends the run
 };

@@ -17,7 +17,9 @@ Schedule make_schedule(const Study& study, const std::vector<Case>& cases, const
   // The trials of a case lie together in the plan.
   for (std::size_t i = 0; i < n;) {
     const std::size_t last = i + trials_of(study, study.patterns[cases[i].pattern]) - 1;
-    const bool whole = !is_finished(last);
+    const bool spectra = observer.spectra && study.measures.has(Measure::spectrum) && study.images != Images::none &&
+                         !(observer.has_spectra && observer.has_spectra(cases[last]));
+    const bool whole = !is_finished(last) || spectra;
     for (; i <= last; ++i) {
       const Case& c = cases[i];
       const bool has_image = is_finished(i) && observer.has_case_image && observer.has_case_image(c);

@@ -10,7 +10,8 @@ namespace moire {
 
 // By case, but for needs_truth. A case is due when it has no row yet, when its image is to be made, or when the last
 // trial of its scene, pattern, spp, filter and estimator has no row: bias and variance over trials are found as that
-// one ends, from the errors of every trial, which are kept in no file.
+// one ends, from the errors of every trial, which are kept in no file. So are its spectra: where their files are
+// missing all its trials are due.
 struct Schedule {
   std::vector<bool> due;
   std::vector<bool> image;        // its image is made

@@ -10,6 +10,8 @@
 
 #include "engine/render.h"
 #include "filters/filter.h"
+#include "measure/contrast_sensitivity.h"
+#include "measure/spectrum.h"
 #include "patterns/pattern.h"
 #include "study/measures.h"
 #include "study/scene_file.h"
@@ -29,6 +31,12 @@ struct EstimatorChoice {
   Estimator value = Estimator::ratio;
 };
 
+// How spectra of errors are taken: a table [spectrum] of a study file.
+struct SpectrumSettings {
+  SpectrumWindow window = SpectrumWindow::none;
+  double pixels_per_degree = kPixelsPerDegree;  // of the eye's field, for csf_rms; 1 to 1000
+};
+
 // Of which cases the images are kept.
 enum class Images : std::uint8_t { none, first_trial, all };
 
@@ -45,6 +53,7 @@ struct Study {
   std::vector<Filter> filters;
   std::vector<EstimatorChoice> estimators;
   MeasureSet measures;
+  SpectrumSettings spectrum;
   Images images = Images::first_trial;
   std::vector<NamedScene> scenes;
 };

@@ -10,6 +10,7 @@
 #include "measure/statistics.h"
 #include "study/columns.h"
 #include "study/filter_ranking.h"
+#include "study/noise_ranking.h"
 #include "study/scene_file.h"
 
 namespace moire {
@@ -209,6 +210,9 @@ void set_optional(Row& row, const Case& c) {
     for (const Row* x : c.rows) squares.push_back(x->number(name) * x->number(name));
     set_finite(row, name, rms_over_trials(squares));
   }
+  if (!c.family && c.rows.back()->find("spectrum_window") != nullptr) {
+    for (const std::string_view name : kSpectrumColumns) copy_cell(*c.rows.back(), name, row, name);
+  }
   for (const std::string name : {"overshoot_got", "overshoot_exact", "undershoot_got", "undershoot_exact"}) {
     if (has(name)) set_finite(row, name, largest_of(c, name));
   }
@@ -325,6 +329,7 @@ Summary summarize(const Table& rows) {
     summary.rows.push_back(std::move(row));
   }
   summary.filters = rank_filters(summary.rows);
+  summary.noise = rank_noise(summary.rows);
   return summary;
 }
 

@@ -26,6 +26,8 @@ inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid 
   all.emplace_back("disks", disks({16,  14,  13,  25,   26, 2, 4,    5,    2,     16,   27.5, 0.5, 17, 27.5,
                                    0.5, 1.5, 1.5, 1e-3, 30, 2, 0.01, 2.25, 25.75, 1e-6, 29.3, 5.1, 0.2},
                                   grid));
+  // One disk to eight pixels: windows with none, with several, with a part of one.
+  all.emplace_back("noise field", noise_field(3000, 0.05, 0.4, 1, grid));
   all.emplace_back("board", board({.focal = 28, .principal = {16, 11}, .height = 1.5, .pitch = 25, .yaw = 7, .roll = 3},
                                   {-3, 4, 1, 9}, grid));
   all.emplace_back("board on the pixel grid", board({0.25, 0, -1, 0, 0.25, -1, 0, 0, 1}, {0, 4, 0, 3}, grid));

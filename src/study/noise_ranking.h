@@ -1,0 +1,21 @@
+// Patterns ranked over the scenes of a study by how large their errors are and by what they look like, so that one sees
+// where the rankings part.
+#pragma once
+
+#include "study/results.h"
+
+namespace moire {
+
+// `summary_rows` are those of summarize(). Rows without the columns of the measure `spectrum` give none.
+//
+// One row per filter, estimator, spp, pattern and layout that has all scenes that any of them has: relative_rmse,
+// relative_csf and relative_low_frequency, geometric means over the scenes of rmse_all, csf_rms and the root of
+// low_frequency_noise over that of the scene's best;
+// low_frequency_ratio and structured_fraction, means over the scenes (empty where a scene has none); peaks, the number
+// of scenes with a significant structured peak, and highest_peak_db of these; n_scenes; and rank_rmse, rank_csf,
+// rank_low_frequency (of relative_low_frequency), rank_colour (of low_frequency_ratio) and rank_structured, from 1,
+// equal ones alike, empty for what has no value. In the order of filter, estimator and spp as they come, then by
+// rank_rmse.
+Table rank_noise(const Table& summary_rows);
+
+}  // namespace moire
