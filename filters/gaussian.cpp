@@ -27,7 +27,8 @@ struct Preset {
   double sigma, radius;
   bool offset;
 };
-// Read in the systems' sources and manuals: pbrt-v4, Mitsuba 3, ImageMagick 7, OSPRay's look-up table at width 3, the
+// Read in the systems' sources and manuals: pbrt-v4, Mitsuba 3 (as documented; its CPU code is a
+// polynomial that is off by up to 1e-3), ImageMagick 7, OSPRay's look-up table at width 3, the
 // RenderMan Interface's 2 x 2 filter and Arnold's width 2 after it, Cycles at width 1.5, OpenImageIO 2.4 at its widths
 // 3 (sigma = width / 4) and 2 (exp(-4 x^2)).
 constexpr Preset kPresets[] = {{"pbrt", 0.5, 1.5, true},

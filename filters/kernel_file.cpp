@@ -100,9 +100,9 @@ class Reader {
     }
     double peak = 0;
     for (const KernelRow& r : rows_) peak = std::max(peak, std::fabs(r.k));
-    if (!(peak >= kLeastPeak && peak <= 1 / kLeastPeak)) {
+    if (!(peak >= kLeastPeak && peak <= kMostPeak)) {
       throw Error(path_, fmt::format("the largest |k| is {}; it must be {} to {}", shortest(peak), shortest(kLeastPeak),
-                                     shortest(1 / kLeastPeak)));
+                                     shortest(kMostPeak)));
     }
     return rows_;
   }

@@ -15,9 +15,10 @@ struct KernelRow {
 };
 
 // Limits of a file: its rows, and the size of |x| in pixels. Different x are at least kLeastStep apart: nearer ones are
-// a jump, which is written with one x. The largest |k| lies within kLeastPeak and its inverse.
+// a jump, which is written with one x. The largest |k| lies within kLeastPeak and kMostPeak.
 inline constexpr int kMaxKernelRows = 4096;
-inline constexpr double kMaxKernelRadius = 16, kMinKernelRadius = 0.0625, kLeastStep = 0x1p-20, kLeastPeak = 1e-30;
+inline constexpr double kMaxKernelRadius = 16, kMinKernelRadius = 0.0625, kLeastStep = 0x1p-20, kLeastPeak = 1e-30,
+                        kMostPeak = 1e30;
 
 // The rows of the whole kernel, from left to right; a half is mirrored. At least two, of at least two different x.
 // Throws Error with file:line:column; for a file that cannot be read, with `place` and Exit::io.

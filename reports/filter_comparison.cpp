@@ -44,6 +44,11 @@ std::vector<const Row*> ranked(const Summary& summary, const std::string& patter
   return order;
 }
 
+// The interval of the ratio to the first holds 1.
+bool ties_with_first(const Row& row, const std::string& value) {
+  return row.number(value + "_lo") <= 1 && row.number(value + "_hi") >= 1;
+}
+
 std::string ranking(const Summary& summary, const Cases& cases, std::int64_t spp) {
   struct Column {
     std::vector<const Row*> order;
@@ -64,7 +69,9 @@ std::string ranking(const Summary& summary, const Cases& cases, std::int64_t spp
   for (std::size_t i = 0; i < length; ++i) {
     Line line{std::to_string(i + 1)};
     for (const Column& c : columns) {
-      line.push_back(i < c.order.size() ? label_of(*c.order[i]) + number_text(c.order[i], c.value, " {:.2f}") : "-");
+      line.push_back(i < c.order.size() ? label_of(*c.order[i]) + number_text(c.order[i], c.value, " {:.2f}") +
+                                              (i > 0 && ties_with_first(*c.order[i], c.value) ? " =" : "")
+                                        : "-");
     }
     lines.push_back(std::move(line));
   }
@@ -122,15 +129,20 @@ std::string filter_comparison(const Summary& summary) {
   const Cases cases(summary.rows);
   if (summary.filters.empty() || cases.kernels().size() < 2) return {};
   const std::int64_t spp = cases.spp().back();
-  std::string out = fmt::format("## The answer: filters at {} samples per pixel\n\n", spp);
+  std::string out = fmt::format("## Filters compared, at {} samples per pixel\n\n", spp);
   out +=
       "Three errors, all RMSE over all pixels of the image (a wide filter has more active pixels, and flatter ones, so "
       "that a mean over active pixels would flatter it):\n\n"
-      "- *sampling*: image - the filter's own exact image, what the samples miss;\n"
+      "- *sampling*: image - the filter's own exact image, what the samples miss. The more a filter blurs, the more "
+      "samples share in each pixel, and the smaller it is;\n"
       "- *filter's own*: the exact image - box coverage, what the filter changes without any sampling;\n"
-      "- *total*: image - box coverage.\n\n"
+      "- *total*: image - box coverage. The yardstick is the box filter itself, whose own change is nothing by "
+      "definition: with many samples this is the distance to the box. It judges neither sharpness nor aliasing, for "
+      "which the metrics of the filters are below.\n\n"
       "### Ranking over the scenes\n\n"
-      "Geometric mean over the scenes of the error over that of the scene's best filter.\n\n";
+      "The error over that of the first, geometric mean over scenes and trials; `=` where the 95% interval of the "
+      "ratio "
+      "(over trials, paired) holds 1.\n\n";
   out += ranking(summary, cases, spp);
   for (const std::string& scene : cases.scenes()) {
     out += "### Filters on " + markdown_code(scene) + "\n\n" + scene_table(cases, scene, spp);

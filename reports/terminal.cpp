@@ -87,7 +87,7 @@ std::string ranking(const Summary& summary, const Cases& cases, bool bold) {
   if (text.empty()) return text;
   return text +
          "total: image - box coverage; sampling: image - the filter's exact image; RMSE over all pixels, over that of "
-         "the\nscene's best filter, geometric mean over scenes\n\n";
+         "the\nfirst, geometric mean over scenes and trials\n\n";
 }
 
 }  // namespace

@@ -4,88 +4,127 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "measure/statistics.h"
 #include "study/columns.h"
 
 namespace moire {
 namespace {
 
 constexpr const char* kErrors[] = {"rmse_all", "rmse_coverage_all"};
+constexpr const char* kNames[] = {"sampling", "total"};
 
-// The rows of one pattern and sample count.
-using Field = std::vector<const Row*>;
+// Trial and scene.
+using Place = std::pair<double, std::string_view>;
 
-// Sum over scenes of the log of an error over the scene's best.
-struct Standing {
+// One filter and estimator among those of a pattern and count: its rows by place.
+struct Contender {
   const Row* first = nullptr;
-  std::size_t scenes = 0;
-  double log_ratio[2] = {0, 0};
+  std::map<Place, const Row*> rows;
 };
 
-std::vector<Standing> standings(const Field& field) {
-  std::map<std::string_view, double> best[2];  // by scene
-  for (const Row* row : field) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto known = best[i].try_emplace(row->text("scene"), row->number(kErrors[i])).first;
-      known->second = std::fmin(known->second, row->number(kErrors[i]));
-    }
+// Mean over the places of the log of an error.
+double mean_log(const Contender& c, const std::set<Place>& places, const char* error) {
+  double sum = 0;
+  for (const Place& place : places) sum += std::log(c.rows.at(place)->number(error));
+  return sum / static_cast<double>(places.size());
+}
+
+// Half the 95% interval of the mean over trials of log c - log best; none for fewer than 2 trials.
+std::optional<double> half_interval(const Contender& c, const Contender& best, const std::set<Place>& places,
+                                    const char* error) {
+  std::map<double, std::pair<double, double>> by_trial;  // sum over scenes, scenes
+  for (const Place& place : places) {
+    auto& [sum, count] = by_trial[place.first];
+    sum += std::log(c.rows.at(place)->number(error)) - std::log(best.rows.at(place)->number(error));
+    count += 1;
   }
-  std::vector<Standing> all;
+  const auto trials = static_cast<double>(by_trial.size());
+  if (trials < 2) return std::nullopt;
+  double mean = 0, squares = 0;
+  for (const auto& [unused, x] : by_trial) mean += x.first / x.second / trials;
+  for (const auto& [unused, x] : by_trial) squares += (x.first / x.second - mean) * (x.first / x.second - mean);
+  return student_t95(static_cast<std::int64_t>(trials) - 1) * std::sqrt(squares / (trials - 1) / trials);
+}
+
+// The contenders that have all places.
+std::vector<Contender> complete(const std::vector<const Row*>& field) {
+  std::vector<Contender> all;
   std::map<std::pair<std::string_view, std::string_view>, std::size_t> index;
-  for (const Row* row : field) {
-    const std::string_view scene = row->text("scene");
-    if (!(best[0].at(scene) > 0) || !(best[1].at(scene) > 0)) continue;
-    const auto [known, is_new] = index.try_emplace({row->text("filter"), row->text("estimator")}, all.size());
-    if (is_new) all.push_back({.first = row});
-    Standing& s = all[known->second];
-    ++s.scenes;
-    for (std::size_t i = 0; i < 2; ++i) s.log_ratio[i] += std::log(row->number(kErrors[i]) / best[i].at(scene));
-  }
   std::size_t most = 0;
-  for (const Standing& s : all) most = std::max(most, s.scenes);
-  all.erase(std::remove_if(all.begin(), all.end(), [&](const Standing& s) { return s.scenes < most; }), all.end());
+  for (const Row* row : field) {
+    const auto [known, is_new] = index.try_emplace({row->text("filter"), row->text("estimator")}, all.size());
+    if (is_new) all.push_back({row, {}});
+    Contender& c = all[known->second];
+    c.rows.emplace(Place(row->number("trial"), row->text("scene")), row);
+    most = std::max(most, c.rows.size());
+  }
+  all.erase(std::remove_if(all.begin(), all.end(), [&](const Contender& c) { return c.rows.size() < most; }),
+            all.end());
   return all;
 }
 
-// 1 + the number of better ones: equal ones share a rank.
-std::int64_t rank_of(const std::vector<Standing>& all, const Standing& s, std::size_t i) {
-  return 1 + std::count_if(all.begin(), all.end(),
-                           [&](const Standing& other) { return other.log_ratio[i] < s.log_ratio[i]; });
+// Those where every contender has an error.
+std::set<Place> useful_places(const std::vector<Contender>& all) {
+  std::set<Place> places;
+  for (const auto& [place, unused] : all.front().rows) {
+    const bool useful = std::all_of(all.begin(), all.end(), [&, at = place](const Contender& c) {
+      const auto row = c.rows.find(at);
+      return row != c.rows.end() && row->second->number(kErrors[0]) > 0 && row->second->number(kErrors[1]) > 0;
+    });
+    if (useful) places.insert(place);
+  }
+  return places;
+}
+
+void rank(const std::vector<const Row*>& field, Table& ranking) {
+  const std::vector<Contender> all = complete(field);
+  const std::set<Place> places = useful_places(all);
+  if (places.empty()) return;
+  Table rows(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const char* key : {"pattern", "spp", "filter", "estimator", "layout"}) {
+      if (const Cell* cell = all[i].first->find(key)) rows[i].set(key, *cell);
+    }
+  }
+  for (std::size_t e = 0; e < std::size(kErrors); ++e) {
+    const std::string name = kNames[e];
+    std::vector<double> logs;
+    for (const Contender& c : all) logs.push_back(mean_log(c, places, kErrors[e]));
+    const auto best = static_cast<std::size_t>(std::min_element(logs.begin(), logs.end()) - logs.begin());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double log_ratio = logs[i] - logs[best];
+      const auto half = half_interval(all[i], all[best], places, kErrors[e]);
+      rows[i].set("relative_" + name, std::exp(log_ratio));
+      rows[i].set("relative_" + name + "_lo", half ? Cell(std::exp(log_ratio - *half)) : Cell());
+      rows[i].set("relative_" + name + "_hi", half ? Cell(std::exp(log_ratio + *half)) : Cell());
+      rows[i].set("rank_" + name,
+                  std::int64_t{1} + std::count_if(logs.begin(), logs.end(), [&](double l) { return l < logs[i]; }));
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.number("rank_total") < b.number("rank_total"); });
+  ranking.insert(ranking.end(), rows.begin(), rows.end());
 }
 
 }  // namespace
 
-Table rank_filters(const Table& summary_rows) {
-  std::vector<Field> fields;
+Table rank_filters(const Table& rows) {
+  std::vector<std::vector<const Row*>> fields;
   std::map<std::pair<std::string, double>, std::size_t> index;
-  for (const Row& row : summary_rows) {
-    if (!std::isfinite(row.number("rmse_coverage_all")) || !std::isfinite(row.number("rmse_all"))) continue;
+  for (const Row& row : rows) {
+    if (!std::isfinite(row.number(kErrors[0])) || !std::isfinite(row.number(kErrors[1]))) continue;
     const auto [known, is_new] = index.try_emplace({sampler_of(row), row.number("spp")}, fields.size());
     if (is_new) fields.emplace_back();
     fields[known->second].push_back(&row);
   }
   Table ranking;
-  for (const Field& field : fields) {
-    std::vector<Standing> all = standings(field);
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Standing& a, const Standing& b) { return a.log_ratio[1] < b.log_ratio[1]; });
-    for (const Standing& s : all) {
-      const auto scenes = static_cast<double>(s.scenes);
-      Row row;
-      for (const char* key : {"pattern", "spp", "filter", "estimator", "layout"}) {
-        if (const Cell* cell = s.first->find(key)) row.set(key, *cell);
-      }
-      row.set("n_scenes", static_cast<std::int64_t>(s.scenes));
-      row.set("relative_sampling", std::exp(s.log_ratio[0] / scenes));
-      row.set("rank_sampling", rank_of(all, s, 0));
-      row.set("relative_total", std::exp(s.log_ratio[1] / scenes));
-      row.set("rank_total", rank_of(all, s, 1));
-      ranking.push_back(std::move(row));
-    }
-  }
+  for (const auto& field : fields) rank(field, ranking);
   return ranking;
 }
 

@@ -5,15 +5,18 @@
 
 namespace moire {
 
-// `summary_rows` are those of summarize(). Rows without the columns of the measure `coverage` give none.
+// `rows` are the raw rows of a study. Rows without the columns of the measure `coverage` give none.
 //
-// One row per pattern, spp, filter and estimator that has all scenes: relative_sampling and relative_total, geometric
-// means over the scenes of rmse_all (got - the filter's exact image) and rmse_coverage_all (got - coverage), each over
-// that of the scene's best filter at that pattern and spp; and rank_sampling and rank_total, from 1. Errors are over
-// all pixels of the image: the active pixels of a wide filter are more, and flatter, than those of a narrow one, so
-// that a mean over active pixels would flatter it. A filter without error on a scene would make every other infinitely
-// worse: such a scene is left out for that pattern and spp; where no scene is left, there are no rows.
-// In the order of pattern and spp as they come, then by rank_total.
-Table rank_filters(const Table& summary_rows);
+// One row per pattern, layout, spp, filter and estimator that has every scene and trial that any of them has:
+// relative_sampling and relative_total are the errors rmse_all (got - the filter's exact image) and rmse_coverage_all
+// (got - coverage) over those of the first in the ranking, geometric means over scenes and trials; each with _lo and
+// _hi, a 95% interval (Student's t over trials: filters see the same samples in a trial, so the ratio is paired; none
+// for one trial, 1 for the first itself), and rank_sampling and rank_total, from 1.
+//
+// Errors are over all pixels of the image: the active pixels of a wide filter are more, and flatter, than those of a
+// narrow one, so that a mean over active pixels would flatter it. A scene and trial on which some filter has no error
+// at all says nothing of ratios and is left out; where nothing is left, there are no rows.
+// In the order of pattern, layout and spp as they come, then by rank_total.
+Table rank_filters(const Table& rows);
 
 }  // namespace moire

@@ -328,7 +328,7 @@ Summary summarize(const Table& rows) {
     }
     summary.rows.push_back(std::move(row));
   }
-  summary.filters = rank_filters(summary.rows);
+  summary.filters = rank_filters(rows);
   summary.noise = rank_noise(summary.rows);
   return summary;
 }

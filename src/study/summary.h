@@ -27,7 +27,7 @@ struct Summary {
   //   slope_hi, ci_method, n_trials, spp_min, spp_max, n_spp (the points used), left_out (sample counts that are
   //   not used, and why; empty when all are) and n_scenes.
   Table slopes;
-  Table filters;  // rank_filters(rows); empty unless the study measured coverage
+  Table filters;  // rank_filters() of the raw rows; empty unless the study measured coverage
   Table noise;    // rank_noise(rows); empty unless the study measured spectrum
 };
 

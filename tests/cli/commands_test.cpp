@@ -204,7 +204,7 @@ TEST_SUITE("cli") {
     CAPTURE(of_image);
     CHECK(of_image.starts_with("note: " + image + ": "));
     CHECK(of_image.find(" active pixels, ") != std::string::npos);
-    CHECK(of_image.find(" us each on ") != std::string::npos);
+    CHECK(of_image.find(" us of wall time each on ") != std::string::npos);
     CHECK(of_image.find("; bounds at most ") != std::string::npos);
     CHECK(run_ok({"exact", disk, "--pixels", pixels}).err.starts_with("note: " + pixels + ": 2 pixels, "));
     CHECK(run_ok({"exact", disk, "--pixels", folder.write("none.txt", "")}).err.find(": no pixels") !=
@@ -309,6 +309,22 @@ TEST_SUITE("cli") {
         if (images) CHECK(read_file(folder / "fast.exr") == read_file(folder / "full.exr"));
       }
     }
+  }
+
+  TEST_CASE("render with one set over the image, and the refusal of a pattern that cannot") {
+    const Folder folder;
+    const std::string disk = folder.write("disk.toml", kDisk);
+    const json row =
+        json::parse(run_ok({"render", disk, "--pattern", "n-rooks", "--spp", "3", "--layout", "image", "--json"}).out);
+    CHECK(row["layout"] == "image");
+    CHECK(row["samples_total"] == 3 * 32 * 24);
+    CHECK(row["samples_evaluated"].get<int>() < 3 * 32 * 24);
+    const Outcome refused = run_program({"render", disk, "--pattern", "regular", "--spp", "4", "--layout", "image"});
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find("cannot fill an image as one set; these can: random, jittered") != std::string::npos);
+    const Outcome unknown = run_program({"render", disk, "--pattern", "random", "--spp", "4", "--layout", "imge"});
+    CHECK(unknown.code == 2);
+    CHECK(unknown.err.find("did you mean image") != std::string::npos);
   }
 
   TEST_CASE("without --json the metrics are lines of a name and a value") {

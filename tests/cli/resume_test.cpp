@@ -20,6 +20,7 @@ std::string study_with(const std::string& spp) {
   return "name = \"small\"\nseed = 3\ntrials = 3\nspp = " + spp +
          "\n"
          "patterns = [\"regular\", \"jittered\", \"dart-throwing:bank=4,k=500\"]\nfilters = [\"box\", \"tent\"]\n"
+         "measures = [\"error\", \"coverage\", \"flat-field\", \"ringing\", \"spectrum\", \"kernel\"]\n"
          "images = \"first-trial\"\n"
          "[[scene]]\nname = \"Edge 1\"\n" +
          kEdge + "[[scene]]\n" + kDisk +

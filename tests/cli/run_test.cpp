@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -107,6 +108,44 @@ TEST_SUITE("cli") {
       }
       std::filesystem::remove_all(folder / "out");
     }
+  }
+
+  TEST_CASE("a study of spectra over both layouts writes them beside the images, under names that tell the layout") {
+    const Folder folder;
+    const std::string study =
+        "trials = 3\nspp = [4]\nlayout = [\"pixel\", \"image\"]\npatterns = [\"random\", \"zaremba\"]\n"
+        "measures = [\"error\", \"spectrum\"]\nspectrum = { window = \"hann\" }\n[[scene]]\nname = \"e\"\n" +
+        kEdge;
+    const Outcome outcome = run_program({"run", folder.write("s.toml", study), "-o", folder / "out"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.starts_with("noise over all scenes, box, 4 samples per pixel\n"));
+    CHECK(outcome.out.find("  zaremba, layout=image") != std::string::npos);
+    const std::filesystem::path images = folder / "out/images";
+    for (const char* stem : {"e_random_4_box", "e_random_4_box_image", "e_zaremba_4_box", "e_zaremba_4_box_image"}) {
+      for (const char* ending : {".spectrum.exr", ".structured.exr", ".noise.exr", ".spectrum.png", ".spectrum.csv"}) {
+        CHECK(std::filesystem::exists(images / (std::string(stem) + ending)));
+      }
+      CHECK(std::filesystem::exists(images / (std::string(stem) + "_t0.got.exr")));
+    }
+    // Over the image no power but that of its parts.
+    const auto total = moire::read_exr((images / "e_random_4_box_image.spectrum.exr").string());
+    const auto structured = moire::read_exr((images / "e_random_4_box_image.structured.exr").string());
+    const auto noise = moire::read_exr((images / "e_random_4_box_image.noise.exr").string());
+    REQUIRE(total.y.size() == 32 * 24);
+    for (std::size_t i = 0; i < total.y.size(); ++i) {
+      // Each file is rounded to float.
+      const float size = total.y[i] + noise.y[i];
+      CHECK(std::abs(total.y[i] - structured.y[i] - noise.y[i]) <= 4 * 0x1p-24F * size);
+    }
+    std::map<std::string, int> rows;
+    for (const std::string& line : lines_of(read_file(folder / "out/results.jsonl"))) {
+      const json row = json::parse(line);
+      if (row["kind"] == "row") ++rows[row["layout"].get<std::string>()];
+    }
+    CHECK(rows == std::map<std::string, int>{{"image", 4}, {"pixel", 4}});
+    CHECK(read_file(folder / "out/report.md").find("## The answer: what the errors look like") != std::string::npos);
+    CHECK(lines_of(read_file(folder / "out/noise_ranking.csv")).size() == 5);
   }
 
   TEST_CASE("images = none writes no image, images = all those of every trial") {

@@ -55,7 +55,11 @@ Kernel shifted_mitchell(double shift) {
 constexpr double kPromised = 1e-13;
 
 TEST_SUITE("unit") {
-  TEST_CASE("the metrics of well-known filters, to the digits that tables print") {
+  // Some tables in circulation print the band integrals (smoothing, postaliasing, edge) of these filters a unit or more
+  // of the last digit lower, as from integrals over f that were cut short (box .400, .400 and 9.6e-3); these digits are
+  // those of filter_metrics_brute_test.cpp, which integrates in f and bounds what it leaves out, and of the closed form
+  // for the box.
+  TEST_CASE("the metrics of well-known filters, to three digits") {
     struct Printed {
       std::string text;
       // Decimals as written say how far they reach: half a unit of the last digit.
@@ -79,7 +83,6 @@ TEST_SUITE("unit") {
       const std::size_t exponent = std::min(printed.find('e'), printed.size()), point = printed.find('.');
       const double decimals = point == std::string::npos ? 0 : static_cast<double>(exponent - point - 1);
       const double power = exponent == printed.size() ? 0 : std::stod(printed.substr(exponent + 1));
-      if (printed.empty()) return true;  // the scale of our B-spline's plug-in is its own
       // A plain 0 or 1 is meant to be exact.
       const double unit = point == std::string::npos && power == 0 ? 1e-13 : 0.5001 * std::pow(10.0, power - decimals);
       return std::fabs(value - std::stod(printed)) <= unit;

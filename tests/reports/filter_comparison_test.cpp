@@ -28,6 +28,7 @@ Table rows_of(int filters, bool coverage) {
     row.set("mse_active", 0.01 * (i + 1));
     row.set("rmse_active", 0.1 * (i + 1));
     row.set("mse_all", 0.01 * (i + 1) * (i + 1));
+    row.set("rmse_all", 0.1 * (i + 1));
     row.set("status", std::string("ok"));
     if (coverage) {
       row.set("rmse_coverage_all", 0.5 / (i + 1));
