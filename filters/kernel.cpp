@@ -99,8 +99,9 @@ struct SeriesBound {
 // zwischen Gitterpunkten", Mathematische Zeitschrift 86, 1964). Another bound is the sum of |c_j|. The same holds for
 // every b_j of Clenshaw's recurrence b_j = c_j + (2 t b_{j+1} - b_{j+2}). An error in b_j acts as one in c_j: it
 // reaches the result times |T_j| <= 1. So the result errs by at most u times the sum over the steps of product,
-// difference and sum.
-SeriesBound bound_series(std::span<const double> c) {
+// difference and sum. All that for |t| <= 1; at 1 + beyond every polynomial of degree n, the T_j among them, is at most
+// T_n(1 + beyond) = cosh(n arcosh(1 + beyond)) times larger.
+SeriesBound bound_series(std::span<const double> c, double beyond) {
   const std::size_t n = c.size();
   struct Step {
     double product = 0, difference = 0, sum = 0;
@@ -119,14 +120,16 @@ SeriesBound bound_series(std::span<const double> c) {
       b1 = b;
     }
   }
-  // The factor with 2^-20 for the rounding of all this and for points a little beyond the ends.
-  constexpr double kBetween = 1.0048387 * (1 + 0x1p-20);
+  // 2^-20 for the rounding of all this and for points beyond ordinary pieces' ends; very short ones get twice the need.
+  const double growth = std::cosh(static_cast<double>(n - 1) * std::acosh(1 + beyond));
+  const double room = 1 + std::max(0x1p-20, 2 * (growth * growth - 1));
+  const double between = 1.0048387 * room;
   SeriesBound bound;
   // The first step, b_{n-1} = c_{n-1}, is exact.
   for (std::size_t j = 0; j + 1 < n; ++j) {
-    bound.rounding += kUnit * kBetween * (steps[j].product + steps[j].difference + steps[j].sum);
+    bound.rounding += kUnit * between * (steps[j].product + steps[j].difference + steps[j].sum);
   }
-  bound.top = std::min(kBetween * steps[0].sum + bound.rounding, absolute_sum(c, 1) * (1 + 0x1p-20));
+  bound.top = std::min(between * steps[0].sum + bound.rounding, absolute_sum(c, 1) * room);
   return bound;
 }
 
@@ -214,16 +217,17 @@ Kernel::Kernel(const KernelShape& s) : knots_(s.knots) {
     const double lost_K = append(K_series[i]);
     const std::span<const double> c(coefficients_.data() + p.k_first, terms);
     const std::span<const double> big(coefficients_.data() + p.K_first, terms + 1);
-    const SeriesBound k = bound_series(c), K = bound_series(big);
+    const double beyond = kBeyond * radius() / p.half;  // in t
+    const SeriesBound k = bound_series(c, beyond), K = bound_series(big, beyond);
     bound.k = k.top;
     bound.K = K.top;
-    bound.slope = bound_series(derivative(c)).top / p.half;
+    bound.slope = bound_series(derivative(c), beyond).top / p.half;
     bound.k_error = fit + k.top * normalised + lost_k + k.rounding;
     bound.K_error = support * fit + K.top * normalised + lost_K + K.rounding;
     // t = (x - mid) * inverse_half: a difference and a product, besides the rounding of mid and of inverse_half.
     const double middle_error = std::fabs((middle[i] - Dd(p.mid)).hi);
     const double scale_error = std::fabs((half_length[i] * Dd(p.inverse_half) - Dd(1.0)).hi);
-    bound.t_error = (2 * kUnit + scale_error) * (1 + 0x1p-40) + 1.01 * middle_error / p.half;
+    bound.t_error = (2 * kUnit + scale_error) * (1 + std::max(0x1p-40, 2 * beyond)) + 1.01 * middle_error / p.half;
     bound.k_error_at_x = bound.k_error + bound.t_error * p.half * bound.slope;
     bound.K_error_at_x = bound.K_error + bound.t_error * p.half * bound.k;
     k_max_ = std::max(k_max_, bound.k);
@@ -326,9 +330,11 @@ double Kernel::K(double x) const noexcept {
   return x <= knots_.front() ? 0.0 : p >= pieces() ? 1.0 : K_piece(p, x);
 }
 
-// Blocks of eight, so that the compiler makes vectors of the inner loops; every lane does what evaluate() does.
+// Blocks of eight, so that the compiler makes vectors of the inner loops; every lane does what evaluate() does. Where
+// the eight are close together, the pieces between them are evaluated for all; else each lane has a piece of its own.
 void Kernel::weights(std::span<const double> x, std::span<double> out) const noexcept {
   constexpr std::size_t kLanes = 8;
+  constexpr int kFewPieces = 4;
   for (std::size_t first = 0; first < x.size(); first += kLanes) {
     const std::size_t n = std::min(kLanes, x.size() - first);
     double at[kLanes], value[kLanes] = {};
@@ -338,8 +344,13 @@ void Kernel::weights(std::span<const double> x, std::span<double> out) const noe
       low = std::min(low, at[i]);
       high = std::max(high, at[i]);
     }
-    const int last = std::min(piece_of(high), pieces() - 1);
-    for (int p = std::max(piece_of(low), 0); p <= last; ++p) {
+    const int begin = std::max(piece_of(low), 0), last = std::min(piece_of(high), pieces() - 1);
+    if (last - begin >= kFewPieces) {
+      weights_apart(at, begin, last, value);
+      std::copy(value, value + n, out.begin() + static_cast<std::ptrdiff_t>(first));
+      continue;
+    }
+    for (int p = begin; p <= last; ++p) {
       const Piece& piece = pieces_[static_cast<std::size_t>(p)];
       const double left = knots_[static_cast<std::size_t>(p)], right = knots_[static_cast<std::size_t>(p) + 1];
       const double* c = coefficients_.data() + piece.k_first;
@@ -358,6 +369,30 @@ void Kernel::weights(std::span<const double> x, std::span<double> out) const noe
       }
     }
     std::copy(value, value + n, out.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+// Eight points on pieces from `begin` to `last` or outside the support; their recurrences overlap.
+void Kernel::weights_apart(const double* at, int begin, int last, double* value) const noexcept {
+  constexpr std::size_t kLanes = 8;
+  const double* c[kLanes];
+  double t[kLanes], b1[kLanes] = {}, b2[kLanes] = {};
+  const auto inner = knots_.begin() + begin + 1, end = knots_.begin() + last + 1;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const Piece& piece = pieces_[static_cast<std::size_t>(std::upper_bound(inner, end, at[i]) - inner + begin)];
+    c[i] = coefficients_.data() + piece.k_first;
+    t[i] = (at[i] - piece.mid) * piece.inverse_half;
+  }
+  for (int j = degree_; j >= 1; --j) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double b = c[i][j] + ((t[i] + t[i]) * b1[i] - b2[i]);
+      b2[i] = b1[i];
+      b1[i] = b;
+    }
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double k = c[i][0] + (t[i] * b1[i] - b2[i]);
+    value[i] = at[i] >= knots_.front() && at[i] < knots_.back() ? k : 0.0;
   }
 }
 

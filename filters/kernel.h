@@ -27,13 +27,19 @@ class Kernel {
  public:
   // What holds on one piece, t = (x - middle) / half length running from -1 to 1 over it.
   struct PieceBounds {
-    double k = 0, K = 0, slope = 0;  // largest |k|, |K| and |k'| per pixel, also 2^-40 beyond the piece's ends
-    double jump = 0;                 // the larger of the jumps of k at the piece's two ends
+    // Largest |k|, |K| and |k'| per pixel, also up to kBeyond of the radius beyond the piece's ends.
+    double k = 0, K = 0, slope = 0;
+    double jump = 0;  // the larger of the jumps of k at the piece's two ends
     // Errors of k_at() and K_at() at the same t, and of k_piece() and K_piece() at the same x: fit, rounded
     // coefficients, evaluation. The second are larger by what t_of() errs.
     double k_error = 0, K_error = 0, k_error_at_x = 0, K_error_at_x = 0;
     double t_error = 0;  // of t_of()
   };
+
+  // Pieces of a circle may stick out of their cell by 16 times 24 u of the radius (engine/boundary_arcs.cpp), below
+  // 2^-44 of it, and 2^-94 of the circle's own radius, which is below 2^50 of the kernel's. On the shortest pieces that
+  // is 2^-12 of their half length.
+  static constexpr double kBeyond = 0x1p-43;
 
   explicit Kernel(const KernelShape& shape);
 
@@ -92,6 +98,7 @@ class Kernel {
   };
   double evaluate(std::size_t first, int degree, double t) const noexcept;
   void evaluate(std::size_t first, int degree, std::span<const double> t, double* out) const noexcept;
+  void weights_apart(const double* at, int begin, int last, double* value) const noexcept;
 
   std::vector<double> knots_;
   std::vector<Piece> pieces_;

@@ -106,7 +106,11 @@ std::string noise_report(const Summary& summary) {
       "all "
       "noise (negative by chance), 1 a pattern without random numbers, which has no noise to be ranked;\n"
       "- *peaks*: scenes with a significant structured peak (1% false alarms over the image's frequencies), and the "
-      "highest over the power around it.\n\n"
+      "highest over the power around it. A pattern without random numbers is judged by what stands out of its own "
+      "spectrum: the highest bin of a single realisation of noise is 10 dB or so above the median around it.\n\n"
+      "Where no sample is near, which is common at one sample per pixel, the ratio estimator looks at the pixel's "
+      "centre "
+      "(`fallbacks` in the rows): a regular grid, whose structure then shows even for random points.\n\n"
       "With the box filter and one pattern per pixel every pixel has samples of its own, so that the noise of any "
       "randomised pattern is white, whatever the pattern's own spectrum: grain is a matter of wide filters, and of "
       "patterns that cross pixels (`layout=image`).\n\n";

@@ -13,6 +13,7 @@
 #include "measure/radial.h"
 #include "measure/spectrum.h"
 #include "reports/preview.h"
+#include "study/noise_measures.h"
 
 namespace moire {
 namespace {
@@ -83,6 +84,11 @@ Table radial_table(const Spectra& spectra) {
 
 SpectrumOutput image_spectrum(const std::string& path, const std::string& reference) {
   const Coverage error = read_error(path, reference);
+  if (std::int64_t{error.grid.width} * error.grid.height > kMaxSpectrumPixels ||
+      std::max(error.grid.width, error.grid.height) > kMaxSpectrumSide) {
+    throw Error(path, fmt::format("has {} x {} pixels; a spectrum takes at most {}, and {} to a side", error.grid.width,
+                                  error.grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
+  }
   ErrorSpectra collected(error.grid.width, error.grid.height, SpectrumWindow::none);
   collected.add(error.y);
   const Spectra spectra = collected.finish();

@@ -11,6 +11,7 @@
 #include "core/sum.h"
 #include "curve/arc.h"
 #include "curve/boundary.h"
+#include "engine/centred_integral.h"
 #include "filters/kernel.h"
 
 namespace moire {
@@ -38,16 +39,18 @@ class BoundaryIntegral {
   Cell cell(int px, int py) const { return {px, py, kernel_.bounds(px), kernel_.bounds(py)}; }
 
   void add_line_piece(Vec2 a, Vec2 b, const Cell& cell, double weight, double off_x, double off_y);
-  void add_arc(const Arc& arc, bool tiny);
+  void add_arc(const Arc& arc, bool tiny, const Rect& place);
   void add_arc_piece(const Arc& arc, bool tiny, double from, double to, int depth);
   Cell arc_cell(const Arc& arc, bool tiny, const ArcMiddle& middle, double half);
   void add_closed_form(double weight, double y0, double y1);
-  double delta_K(const Circle& c, double xi) const;
+  double miss_of(const Arc& arc, bool tiny) const;
+  CentredKnots knots_down(const Circle& c) const;
 
   const Kernel& kernel_;
   int line_nodes_;  // enough for straight pieces, remainder line_remainder_ per unit of |dy|
   double line_remainder_;
-  double cut_error_;  // of a place where a circle is cut, from the curve or from its knot, pixels
+  double cut_error_;        // of a place where a circle is cut, from the curve or from its knot, pixels
+  CentredIntegral beside_;  // in x, of the tiny circle being added
   std::vector<double> cuts_;
 
   Sum sum_;

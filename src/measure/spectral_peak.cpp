@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// The median of the total power around a bin; NaN where there are no bins.
-double median_around(const Spectra& s, int column, int row) {
+// The total power of the bins around a bin.
+std::vector<double> powers_around(const Spectra& s, int column, int row) {
   constexpr int kReach = 4;
   const int own = s.window == SpectrumWindow::hann ? 2 : 1;
   std::vector<double> around;
@@ -31,9 +31,34 @@ double median_around(const Spectra& s, int column, int row) {
       if (!s.is_mean(x, y)) around.push_back(s.total[s.index(x, y)]);
     }
   }
+  return around;
+}
+
+// NaN where there are no bins.
+double median_of(std::vector<double> around) {
   if (around.empty()) return kNan;
   std::sort(around.begin(), around.end());
   return 0.5 * (around[(around.size() - 1) / 2] + around[around.size() / 2]);
+}
+
+// The probability that a bin of one realisation, of which there is no other to compare, has its power or more if it is
+// like the bins around it: the ratio of an exponential number to a mean of m of them is F(2, 2 m). Of the bins around,
+// half at most are conjugates of each other.
+double outlier_p_value(const Spectra& s, int column, int row) {
+  const std::vector<double> around = powers_around(s, column, row);
+  const double power = s.total[s.index(column, row)];
+  double sum = 0;
+  for (const double p : around) sum += p;
+  if (!(power > 0)) return 1;
+  if (!(sum > 0)) return around.empty() ? kNan : 0.0;
+  const double m = 0.5 * static_cast<double>(around.size());
+  const double ratio = power / (sum / static_cast<double>(around.size()));
+  return std::exp(-m * std::log1p(ratio / m));
+}
+
+// A pattern that does not vary: all power is structured, and there is no noise to test it against.
+bool is_single(const Spectra& s) {
+  return s.trials == 1 && s.has_split() && std::all_of(s.noise.begin(), s.noise.end(), [](double v) { return v == 0; });
 }
 
 // The probability that noise alone gives a bin its mean spectrum or a larger one.
@@ -78,13 +103,16 @@ std::optional<SpectralPeak> strongest_peak(const Spectra& spectra, double false_
 
   const double bins = static_cast<double>(searched), limit = false_alarms / bins;
   std::optional<NoiseEnvelope> envelope;
-  if (tested) envelope.emplace(spectra);
+  const bool single = is_single(spectra);
+  if (tested && !single) envelope.emplace(spectra);
   SpectralPeak best;
   bool found = false;
   for (int row = 0; row < spectra.height; ++row) {
     for (int column = 0; column < spectra.width; ++column) {
       if (!spectra.is_first(column, row) || spectra.is_mean(column, row)) continue;
-      const double p = tested ? bin_p_value(spectra, *envelope, column, row, limit) : kNan;
+      const double p = single   ? outlier_p_value(spectra, column, row)
+                       : tested ? bin_p_value(spectra, *envelope, column, row, limit)
+                                : kNan;
       const bool significant = p <= limit;
       const double here = power[spectra.index(column, row)];
       const bool was = best.significant.value_or(false);
@@ -98,9 +126,13 @@ std::optional<SpectralPeak> strongest_peak(const Spectra& spectra, double false_
 
   best.searched = searched;
   best.p_value = kNan;
-  if (tested) best.p_value = std::min(1.0, bins * bin_p_value(spectra, *envelope, best.column, best.row, 1.0));
+  if (single) {
+    best.p_value = std::min(1.0, bins * outlier_p_value(spectra, best.column, best.row));
+  } else if (tested) {
+    best.p_value = std::min(1.0, bins * bin_p_value(spectra, *envelope, best.column, best.row, 1.0));
+  }
   if (!tested) best.significant.reset();
-  const double median = median_around(spectra, best.column, best.row);
+  const double median = median_of(powers_around(spectra, best.column, best.row));
   best.height_db = best.power > 0 && median > 0 ? 10 * std::log10(best.power / median) : kNan;
   return best;
 }

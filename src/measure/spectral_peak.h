@@ -30,9 +30,12 @@ struct SpectralPeak {
 
 // Of the bins that are significant at the rate `false_alarms` (of finding any peak where there is none) the one with
 // most structured power; if there is none, the one with most structured power of all, for what it is worth. For one
-// trial of a pattern that varies: most total power, without a test. Where there is no noise at all (a pattern that does
-// not vary) any structured power is significant. The bins of the mean error (Spectra::is_mean) are not searched;
-// nothing where no others are (images of 1 x 1; hann: 3 x 3) or where a number is not finite.
+// trial of a pattern that varies: most total power, without a test. A pattern that does not vary has no noise to test
+// its power against, and all of it is structured: there a bin is significant that stands out of the bins around it
+// (those of height_db) as it would by chance with that rate, if they all were exponential numbers of one mean, F(2, 2
+// m) with m half their number. The highest bin of one realisation of white noise is 10 dB or so above its median:
+// height alone is no sign. The bins of the mean error (Spectra::is_mean) are not searched; nothing where no others are
+// (images of 1 x 1; hann: 3 x 3) or where a number is not finite.
 std::optional<SpectralPeak> strongest_peak(const Spectra& spectra, double false_alarms = 0.01);
 
 }  // namespace moire

@@ -85,7 +85,8 @@ struct Jittered {
       if (ideal + away <= n && n % (ideal + away) == 0) return ideal + away;
     }
   }
-  // The grid is shifted on the torus by a random part of a cell, so that its lines are anywhere.
+  // The grid is shifted on the torus by a random part of a cell, so that its lines are anywhere; not if nothing else is
+  // random, since such a pattern is the same in every trial.
   static void fill_area(const Args& args, Grid area, Draw d, Points out) {
     const auto count = static_cast<std::int64_t>(out.x.size());
     const std::int64_t columns = area_columns(area, count);
@@ -93,6 +94,7 @@ struct Jittered {
     const Key key = pixel_key(draw_hash(d.seed, d.trial), {});
     uniform_points(key, Axis::area, 0, static_cast<int>(count), out.x.data(), out.y.data());
     grid.place(out.x.data(), out.y.data());
+    if (grid.amount == 0) return stretch(area, out);
     const Words w = hash(key, 0, Axis::area_order);
     const double right = unit(w.a, w.b) / grid.columns, down = unit(w.c, w.d) / grid.rows;
     for (double& x : out.x) x = wrapped(x, right);

@@ -13,6 +13,8 @@ namespace moire {
 
 // Largest image whose spectra are taken, in pixels: each case of a scene that is under way keeps 28 bytes per pixel.
 inline constexpr std::int64_t kMaxSpectrumPixels = std::int64_t{1} << 22;
+// And its longer side: a transform of n values takes time as n^2 where n is prime.
+inline constexpr int kMaxSpectrumSide = 1 << 13;
 
 // Sets the columns kSpectrumColumns (columns.h), which say how a spectrum was taken and what it shows: spectrum_window;
 // noise_power and structured_power (means over all bins: parts of the mean squared error over all pixels, zero

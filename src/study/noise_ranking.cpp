@@ -23,6 +23,14 @@ double mean_of(const std::vector<const Row*>& rows, std::string_view name) {
   return sum / static_cast<double>(rows.size());
 }
 
+// The mean over the scenes, 0 where it is within two standard errors of it.
+double mean_or_chance(const std::vector<const Row*>& rows, std::string_view name, std::string_view error) {
+  double squares = 0;
+  for (const Row* row : rows) squares += row->number(error) * row->number(error);
+  const double mean = mean_of(rows, name);
+  return std::fabs(mean) <= 2 * std::sqrt(squares) / static_cast<double>(rows.size()) ? 0 : mean;
+}
+
 // What is ranked by its ratio to the best: an error, or the root of a power.
 struct Amplitude {
   std::string_view column;
@@ -73,6 +81,7 @@ Row standing(const std::vector<const Row*>& rows, const Field& field) {
   out.set("relative_low_frequency", finite(relative(rows, kLowFrequency, field)));
   out.set("low_frequency_ratio", finite(mean_of(rows, "low_frequency_ratio")));
   out.set("structured_fraction", finite(mean_of(rows, "structured_fraction")));
+  out.set("structured_beyond_chance", finite(mean_or_chance(rows, "structured_fraction", "structured_fraction_error")));
   out.set("peaks", peaks);
   out.set("highest_peak_db", finite(highest));
   return out;
@@ -119,7 +128,7 @@ Table rank_noise(const Table& summary_rows) {
     set_ranks(standings, "relative_csf", "rank_csf");
     set_ranks(standings, "relative_low_frequency", "rank_low_frequency");
     set_ranks(standings, "low_frequency_ratio", "rank_colour");
-    set_ranks(standings, "structured_fraction", "rank_structured");
+    set_ranks(standings, "structured_beyond_chance", "rank_structured");
     std::stable_sort(standings.begin(), standings.end(),
                      [](const Row& a, const Row& b) { return a.number("rank_rmse") < b.number("rank_rmse"); });
     ranking.insert(ranking.end(), standings.begin(), standings.end());

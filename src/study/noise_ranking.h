@@ -11,9 +11,11 @@ namespace moire {
 // One row per filter, estimator, spp, pattern and layout that has all scenes that any of them has: relative_rmse,
 // relative_csf and relative_low_frequency, geometric means over the scenes of rmse_all, csf_rms and the root of
 // low_frequency_noise over that of the scene's best;
-// low_frequency_ratio and structured_fraction, means over the scenes (empty where a scene has none); peaks, the number
+// low_frequency_ratio and structured_fraction, means over the scenes (empty where a scene has none);
+// structured_beyond_chance, 0 where the latter is within two standard errors of 0; peaks, the number
 // of scenes with a significant structured peak, and highest_peak_db of these; n_scenes; and rank_rmse, rank_csf,
-// rank_low_frequency (of relative_low_frequency), rank_colour (of low_frequency_ratio) and rank_structured, from 1,
+// rank_low_frequency (of relative_low_frequency), rank_colour (of low_frequency_ratio) and rank_structured (of
+// structured_beyond_chance), from 1,
 // equal ones alike, empty for what has no value. In the order of filter, estimator and spp as they come, then by
 // rank_rmse.
 Table rank_noise(const Table& summary_rows);

@@ -5,6 +5,7 @@
 #include "engine/render.h"
 #include "engine/samples.h"
 #include "study/file_names.h"
+#include "study/flat_field.h"
 #include "study/noise_measures.h"
 #include "study/study.h"
 
@@ -19,9 +20,11 @@ void require_samples(const Study& study, const PatternChoice& pattern, Layout la
     Pattern(pattern, n, Draw{study.seed, 0});
     return;
   }
-  for (const NamedScene& scene : study.scenes) {
+  std::vector<Grid> grids;
+  for (const NamedScene& scene : study.scenes) grids.push_back(scene.image.grid());
+  if (study.measures.has(Measure::flat_field)) grids.push_back(kFlatField);
+  for (const Grid grid : grids) {
     for (const Filter& filter : study.filters) {
-      const Grid grid = scene.image.grid();
       pattern.area_count({grid.width + 2 * filter.apron(), grid.height + 2 * filter.apron()}, n);
     }
   }
@@ -45,10 +48,13 @@ std::vector<Case> plan(const Study& study) {
   if (study.measures.has(Measure::spectrum)) {
     for (const NamedScene& scene : study.scenes) {
       const Grid grid = scene.image.grid();
-      if (std::int64_t{grid.width} * grid.height <= kMaxSpectrumPixels) continue;
+      if (std::int64_t{grid.width} * grid.height <= kMaxSpectrumPixels &&
+          std::max(grid.width, grid.height) <= kMaxSpectrumSide) {
+        continue;
+      }
       throw Error("measures", fmt::format("scene \"{}\" has {} x {} pixels, too many for a spectrum; give at most {} "
-                                          "pixels, or leave out \"spectrum\"",
-                                          scene.name, grid.width, grid.height, kMaxSpectrumPixels));
+                                          "pixels, and {} to a side, or leave out \"spectrum\"",
+                                          scene.name, grid.width, grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
     }
   }
   for (const NamedScene& scene : study.scenes) {

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <string>
 #include <vector>
 
 #include "filter_list.h"
+#include "reports/folder.h"
 
 namespace moire {
 
@@ -43,6 +46,34 @@ TEST_SUITE("unit") {
       }
       CHECK(kernel.bounds(-1).k == 0);
       CHECK(kernel.bounds(kernel.pieces()).K == 1);
+    }
+  }
+
+  TEST_CASE("weights have the same bits as k, near together and far apart, also where pieces are many") {
+    const Folder folder;
+    {
+      std::ofstream table(folder.file("long.csv"));
+      table.precision(17);
+      for (int i = 0; i < 1000; ++i) table << i / 250.0 << ',' << std::cos(0.003 * i) << '\n';
+    }
+    std::vector<std::string> texts = test::filter_texts();
+    for (const char* between : {"linear", "cubic"}) {
+      texts.push_back("tabulated:path=" + folder.file("long.csv") + ",between=" + between);
+    }
+    for (const std::string& text : texts) {
+      CAPTURE(text);
+      const Filter filter(parse_spec(text, "test"));
+      const Kernel& kernel = filter.kernel();
+      std::vector<double> x(kernel.knots().begin(), kernel.knots().end());
+      const double r = 1.25 * kernel.radius();
+      // Blocks of eight neighbours; then strides that are coprime to 997 and carry each block over the support.
+      for (int stride : {1, 2, 40, 311})
+        for (int i = 0; i < 997; ++i) x.push_back(r * (2.0 * (i * stride % 997) / 996 - 1));
+      std::vector<double> out(x.size());
+      kernel.weights(x, out);
+      int different = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) different += out[i] != kernel.k(x[i]);
+      CHECK(different == 0);
     }
   }
 

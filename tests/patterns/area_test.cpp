@@ -73,6 +73,7 @@ TEST_SUITE("unit") {
           CHECK(set == fill(choice, area, spp, {3, 1}));
           if (choice.varies()) CHECK(set != fill(choice, area, spp, {3, 2}));
           if (choice.varies()) CHECK(set != fill(choice, area, spp, {4, 1}));
+          if (!choice.varies()) CHECK(set == fill(choice, area, spp, {4, 2}));
         }
       }
     }
