@@ -45,6 +45,11 @@ inline TestImage disks(std::vector<double> circles, Grid grid = {64, 64}) {
   return {find_testimage("disks", ""), {{"disks", rows(std::move(circles), 3)}}, grid, "test"};
 }
 
+// A noise field of the usual count and radii.
+inline TestImage usual_noise_field(int seed = 1, Grid grid = {64, 64}) {
+  return {find_testimage("noise-field", ""), {{"seed", one(seed)}}, grid, "test"};
+}
+
 // Random small disks; radii between the two.
 inline TestImage noise_field(int count, double min_radius, double max_radius, int seed = 1, Grid grid = {64, 64}) {
   return {find_testimage("noise-field", ""),

@@ -75,10 +75,15 @@ PairExcess pairs_of_power(const std::function<double(double, double)>& power, do
 // radial mean. `pairs` and `scene` have the same per_pixel, and the distances of `pairs` are below half the sides of
 // the torus.
 //
-// Error: that of taking scene and kernel as constant in a cell where two points are concerned, of second order in
-// 1 / per_pixel; the term of one point is exact up to the kernel's variation over a cell. Time about 1 ns per cell of
-// the scene that is not empty, per distance of `pairs`, and per radius in pixels; in parallel, with the same bits for
-// any number of threads.
+// Error: of second order in 1 / per_pixel where detail of the scene and jumps of the kernel fall into one cell, of
+// fourth order elsewhere. With 8 cells to a pixel and disks of radius 1/4 it was 0.3% of the mean power under a box at
+// 4 points per pixel, 0.05% with 16 cells, and below 0.1% under smooth filters for jittered points. Dart-throwing,
+// whose p jumps at its radius, had 0.7% with 8 cells, frequencies to 4 cycles per pixel, and 0.2% with twice as many of
+// both.
+//
+// Time: for 64 x 64 pixels of 8 x 8 cells 0.1 s for a jittered grid at 1 point per pixel and 2 s for pairs up to 6
+// pixels; it grows as the cells that are not empty, the distances of `pairs`, and the kernel's radius. In parallel,
+// with the same bits for any number of threads.
 std::vector<double> expected_noise(const Kernel& kernel, const FineCoverage& scene, double density,
                                    const PairExcess& pairs);
 

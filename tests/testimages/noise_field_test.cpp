@@ -20,8 +20,8 @@ using namespace moire::test;
 namespace {
 
 std::vector<GivenCircle> usual_disks(Grid grid, std::uint64_t seed = 1) {
-  const auto count = static_cast<std::int64_t>(std::round(0.3 * field_area(grid)));
-  return make_noise_disks({count, 0.15, 0.35, seed}, grid, "test");
+  const auto count = static_cast<std::int64_t>(std::round(1.2 * field_area(grid)));
+  return make_noise_disks({count, 0.2, 0.3, seed}, grid, "test");
 }
 
 TestImage field(const Given& given, Grid grid = {64, 64}) {
@@ -107,10 +107,10 @@ TEST_SUITE("unit") {
   TEST_CASE("a noise field answers as the list of its disks does") {
     Random random(21);
     const Grid grid{64, 48};
-    const auto count = static_cast<std::int64_t>(std::round(0.3 * field_area(grid)));
+    const auto count = static_cast<std::int64_t>(std::round(1.2 * field_area(grid)));
     const TestImage scene = field({}, grid), list = scenes::disks(rows_of(usual_disks(grid)), grid);
     const StoredDoubles stored = scene.stored();
-    CHECK(stored == StoredDoubles{{"count", {static_cast<double>(count)}}, {"radius", {0.15, 0.35}}, {"seed", {1}}});
+    CHECK(stored == StoredDoubles{{"count", {static_cast<double>(count)}}, {"radius", {0.2, 0.3}}, {"seed", {1}}});
     int wrong = 0;
     for (int i = 0; i < 400; ++i) {
       const Pixel pixel{static_cast<std::int64_t>(random.uniform(-40, 104)),
@@ -152,7 +152,7 @@ TEST_SUITE("unit") {
   TEST_CASE("disks of a noise field are as many in every part of the image, and other seeds move them") {
     const Grid grid{256, 256};
     std::vector<std::int64_t> counts(64);
-    for (const std::uint64_t seed : {1, 2}) {
+    for (const std::uint64_t seed : {1u, 2u}) {
       for (const GivenCircle& d : usual_disks(grid, seed)) {
         if (d.center.x < 0 || d.center.x >= 256 || d.center.y < 0 || d.center.y >= 256) continue;
         ++counts[static_cast<std::size_t>(d.center.y / 32) * 8 + static_cast<std::size_t>(d.center.x / 32)];
@@ -161,7 +161,7 @@ TEST_SUITE("unit") {
     double mean = 0, chi = 0;
     for (const auto n : counts) mean += static_cast<double>(n) / 64;
     for (const auto n : counts) chi += (static_cast<double>(n) - mean) * (static_cast<double>(n) - mean) / mean;
-    CHECK(mean == doctest::Approx(2 * 0.3 * 32 * 32).epsilon(0.01));  // 39,000 disks: 0.4% at one standard deviation
+    CHECK(mean == doctest::Approx(2 * 1.2 * 32 * 32).epsilon(0.01));  // 157,000 disks: 0.25% at one standard deviation
     // Disks keep apart, so that counts vary less than Poisson's: only too large a chi-square is a fault.
     CHECK(chi < 63 + 4 * std::sqrt(2 * 63.0));
     const auto one = usual_disks({64, 64}, 1), two = usual_disks({64, 64}, 2);
@@ -174,9 +174,9 @@ TEST_SUITE("unit") {
     using scenes::list, scenes::one;
     const std::string many = refusal({{"count", one(65000)}});
     CHECK(many ==
-          "s.toml:4:9: 65000 disks of radius 0.15 to 0.35 are too many for the 36864 square pixels of the image and 64 "
-          "pixels around it (1.763 a pixel); at most 62384 (1.692 a pixel)");
-    CHECK(refusal({{"count", one(static_cast<double>(most_noise_disks(0.15, 0.35, {64, 64})))}}).empty());
+          "s.toml:4:9: 65000 disks of radius 0.2 to 0.3 are too many for the 36864 square pixels of the image and 64 "
+          "pixels around it (1.763 a pixel); at most 64846 (1.759 a pixel)");
+    CHECK(refusal({{"count", one(static_cast<double>(most_noise_disks(0.2, 0.3, {64, 64})))}}).empty());
     CHECK(says(refusal({{"count", one(0)}}), "\"count\" must be a whole number of disks, 1 to"));
     CHECK(says(refusal({{"count", one(2.5)}}), "whole number"));
     CHECK(says(refusal({{"count", list({1, 2})}}), "whole number"));
