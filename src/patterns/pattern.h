@@ -57,7 +57,7 @@ concept FillsArea = requires(const Args& args, Grid area, std::int64_t n, Draw d
   P::fill_area(args, area, draw, out);
 };
 
-// Most points that such a set may have: 2^26, which is 1 GiB.
+// Most points that such a set may have: 2^26, some 2 GiB while they are made and sorted.
 inline constexpr std::int64_t kMaxAreaPoints = std::int64_t{1} << 26;
 
 enum class Varies : std::uint8_t {
