@@ -85,7 +85,7 @@ std::vector<Attribute> case_attributes(const char* kind, const Study& study, con
           {"moire:pattern", pattern.text()},
           {"moire:filter", filter.text()},
           {"moire:estimator", study.estimators[c.estimator].text},
-          {"moire:layout", std::string(layout_names()[static_cast<std::size_t>(study.layouts[c.layout])])},
+          {"moire:layout", std::string(name_of(study.layouts[c.layout]))},
           {"moire:spp", std::int64_t{study.spp[c.spp]}},
           {"moire:seed", static_cast<std::int64_t>(study.seed)},
           {"moire:trial", std::int64_t{c.trial}},

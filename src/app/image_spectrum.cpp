@@ -84,8 +84,7 @@ Table radial_table(const Spectra& spectra) {
 
 SpectrumOutput image_spectrum(const std::string& path, const std::string& reference) {
   const Coverage error = read_error(path, reference);
-  if (std::int64_t{error.grid.width} * error.grid.height > kMaxSpectrumPixels ||
-      std::max(error.grid.width, error.grid.height) > kMaxSpectrumSide) {
+  if (!has_spectrum(error.grid)) {
     throw Error(path, fmt::format("has {} x {} pixels; a spectrum takes at most {}, and {} to a side", error.grid.width,
                                   error.grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
   }

@@ -17,6 +17,8 @@ constexpr auto kLayoutNames = std::to_array<std::string_view>({"pixel", "image"}
 
 std::span<const std::string_view> layout_names() { return kLayoutNames; }
 
+std::string_view name_of(Layout layout) { return kLayoutNames[static_cast<std::size_t>(layout)]; }
+
 Layout find_layout(std::string_view name, std::string_view place) {
   for (std::size_t i = 0; i < kLayoutNames.size(); ++i) {
     if (kLayoutNames[i] == name) return static_cast<Layout>(i);

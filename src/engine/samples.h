@@ -19,6 +19,7 @@ enum class Layout : std::uint8_t {
 
 // Their names; throws Error naming the nearest ones.
 std::span<const std::string_view> layout_names();
+std::string_view name_of(Layout layout);
 Layout find_layout(std::string_view name, std::string_view place);
 
 // Samples of a stretch of pixels of one row: pixel x0 + i has those from first[i] to first[i + 1].

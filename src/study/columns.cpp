@@ -7,8 +7,6 @@
 namespace moire {
 namespace {
 
-Cell finite(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
 // Sets <field>_<region>.
 class Setter {
  public:
@@ -33,30 +31,30 @@ std::string sampler_of(const Row& row) {
 void set_main_errors(Row& row, std::string_view region, const Errors& errors) {
   const Setter set(row, region);
   set("n_pixels", errors.n_pixels);
-  set("bias", finite(errors.bias));
-  set("mse", finite(errors.mse));
-  set("rmse", finite(errors.rmse));
-  set("max_abs", finite(errors.max_abs));
+  set("bias", finite_cell(errors.bias));
+  set("mse", finite_cell(errors.mse));
+  set("rmse", finite_cell(errors.rmse));
+  set("max_abs", finite_cell(errors.max_abs));
 }
 
 void set_errors(Row& row, std::string_view region, const Errors& errors) {
   const Setter set(row, region);
   const bool wrong = errors.max_x >= 0;
   set("n_pixels", errors.n_pixels);
-  set("bias", finite(errors.bias));
-  set("mae", finite(errors.mae));
-  set("mse", finite(errors.mse));
-  set("rmse", finite(errors.rmse));
-  set("max_abs", finite(errors.max_abs));
+  set("bias", finite_cell(errors.bias));
+  set("mae", finite_cell(errors.mae));
+  set("mse", finite_cell(errors.mse));
+  set("rmse", finite_cell(errors.rmse));
+  set("max_abs", finite_cell(errors.max_abs));
   set("max_x", wrong ? Cell(errors.max_x) : Cell());
   set("max_y", wrong ? Cell(errors.max_y) : Cell());
-  set("max_got", finite(errors.max_got));
-  set("max_want", finite(errors.max_want));
-  set("p50", finite(errors.p50));
-  set("p90", finite(errors.p90));
-  set("p95", finite(errors.p95));
-  set("p99", finite(errors.p99));
-  set("p995", finite(errors.p995));
+  set("max_got", finite_cell(errors.max_got));
+  set("max_want", finite_cell(errors.max_want));
+  set("p50", finite_cell(errors.p50));
+  set("p90", finite_cell(errors.p90));
+  set("p95", finite_cell(errors.p95));
+  set("p99", finite_cell(errors.p99));
+  set("p995", finite_cell(errors.p995));
   set("nan_count", errors.nan_count);
   set("outside_tolerance", errors.outside_tolerance);
 }

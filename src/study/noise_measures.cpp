@@ -15,13 +15,11 @@
 namespace moire {
 namespace {
 
-Cell finite(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
 Cell mean_cell(const std::vector<double>& power) {
   if (power.empty()) return {};
   Sum sum;
   for (const double p : power) sum.add(p);
-  return finite(sum.value() / static_cast<double>(power.size()));
+  return finite_cell(sum.value() / static_cast<double>(power.size()));
 }
 
 // Signed errors of all pixels, row-major. Pixels without a value of their own are exact.
@@ -45,23 +43,23 @@ void set_spectrum(Row& row, const Spectra& spectra, double pixels_per_degree) {
   row.set("noise_power", mean_cell(spectra.noise));
   row.set("structured_power", mean_cell(spectra.structured));
   const LowFrequencyRatio low = low_frequency_ratio(spectra);
-  row.set("low_frequency_ratio", finite(low.ratio));
+  row.set("low_frequency_ratio", finite_cell(low.ratio));
   row.set("low_frequency_ratio_lo", low.interval ? Cell(low.interval->lo) : Cell());
   row.set("low_frequency_ratio_hi", low.interval ? Cell(low.interval->hi) : Cell());
   const double* noise = std::get_if<double>(row.find("noise_power"));
-  row.set("low_frequency_noise", noise != nullptr ? finite(low.ratio * *noise) : Cell());
+  row.set("low_frequency_noise", noise != nullptr ? finite_cell(low.ratio * *noise) : Cell());
   const StructuredFraction structured = structured_fraction(spectra);
-  row.set("structured_fraction", finite(structured.fraction));
-  row.set("structured_fraction_error", finite(structured.error));
+  row.set("structured_fraction", finite_cell(structured.fraction));
+  row.set("structured_fraction_error", finite_cell(structured.error));
   const std::optional<SpectralPeak> peak = strongest_peak(spectra);
   row.set("peak_fx", peak ? Cell(peak->fx) : Cell());
   row.set("peak_fy", peak ? Cell(peak->fy) : Cell());
   row.set("peak_frequency", peak ? Cell(std::hypot(peak->fx, peak->fy)) : Cell());
   row.set("peak_direction", peak ? Cell(peak->direction) : Cell());
-  row.set("peak_height_db", peak ? finite(peak->height_db) : Cell());
-  row.set("peak_p", peak ? finite(peak->p_value) : Cell());
+  row.set("peak_height_db", peak ? finite_cell(peak->height_db) : Cell());
+  row.set("peak_p", peak ? finite_cell(peak->p_value) : Cell());
   row.set("peak_significant", peak && peak->significant ? Cell(*peak->significant) : Cell());
-  row.set("csf_rms", finite(csf_weighted_rms(spectra, pixels_per_degree)));
+  row.set("csf_rms", finite_cell(csf_weighted_rms(spectra, pixels_per_degree)));
 }
 
 Table radial_rows(const Spectra& spectra) {
@@ -70,14 +68,14 @@ Table radial_rows(const Spectra& spectra) {
     Row row;
     row.set("frequency", ring.frequency);
     row.set("bins", ring.total.bins);
-    row.set("total", finite(ring.total.mean));
-    row.set("structured", finite(ring.structured));
-    row.set("structured_error", finite(ring.structured_error));
-    row.set("noise", finite(ring.noise));
+    row.set("total", finite_cell(ring.total.mean));
+    row.set("structured", finite_cell(ring.structured));
+    row.set("structured_error", finite_cell(ring.structured_error));
+    row.set("noise", finite_cell(ring.noise));
     row.set("noise_lo", ring.noise_interval ? Cell(ring.noise_interval->lo) : Cell());
     row.set("noise_hi", ring.noise_interval ? Cell(ring.noise_interval->hi) : Cell());
-    row.set("degrees", finite(ring.degrees));
-    row.set("anisotropy_db", finite(ring.total.anisotropy_db));
+    row.set("degrees", finite_cell(ring.degrees));
+    row.set("anisotropy_db", finite_cell(ring.total.anisotropy_db));
     rows.push_back(std::move(row));
   }
   return rows;

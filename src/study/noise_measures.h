@@ -15,6 +15,10 @@ namespace moire {
 inline constexpr std::int64_t kMaxSpectrumPixels = std::int64_t{1} << 22;
 // And its longer side: a transform of n values takes time as n^2 where n is prime.
 inline constexpr int kMaxSpectrumSide = 1 << 13;
+constexpr bool has_spectrum(Grid grid) {
+  return std::int64_t{grid.width} * grid.height <= kMaxSpectrumPixels && grid.width <= kMaxSpectrumSide &&
+         grid.height <= kMaxSpectrumSide;
+}
 
 // Sets the columns kSpectrumColumns (columns.h), which say how a spectrum was taken and what it shows: spectrum_window;
 // noise_power and structured_power (means over all bins: parts of the mean squared error over all pixels, zero

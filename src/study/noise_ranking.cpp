@@ -61,8 +61,6 @@ std::size_t scenes_of(const Field& field) {
   return scenes.size();
 }
 
-Cell finite(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
 Row standing(const std::vector<const Row*>& rows, const Field& field) {
   Row out;
   for (const char* key : {"filter", "estimator", "spp", "pattern", "layout"}) {
@@ -76,14 +74,15 @@ Row standing(const std::vector<const Row*>& rows, const Field& field) {
     highest = std::fmax(highest, row->number("peak_height_db"));
   }
   out.set("n_scenes", static_cast<std::int64_t>(rows.size()));
-  out.set("relative_rmse", finite(relative(rows, kRmse, field)));
-  out.set("relative_csf", finite(relative(rows, kCsf, field)));
-  out.set("relative_low_frequency", finite(relative(rows, kLowFrequency, field)));
-  out.set("low_frequency_ratio", finite(mean_of(rows, "low_frequency_ratio")));
-  out.set("structured_fraction", finite(mean_of(rows, "structured_fraction")));
-  out.set("structured_beyond_chance", finite(mean_or_chance(rows, "structured_fraction", "structured_fraction_error")));
+  out.set("relative_rmse", finite_cell(relative(rows, kRmse, field)));
+  out.set("relative_csf", finite_cell(relative(rows, kCsf, field)));
+  out.set("relative_low_frequency", finite_cell(relative(rows, kLowFrequency, field)));
+  out.set("low_frequency_ratio", finite_cell(mean_of(rows, "low_frequency_ratio")));
+  out.set("structured_fraction", finite_cell(mean_of(rows, "structured_fraction")));
+  out.set("structured_beyond_chance",
+          finite_cell(mean_or_chance(rows, "structured_fraction", "structured_fraction_error")));
   out.set("peaks", peaks);
-  out.set("highest_peak_db", finite(highest));
+  out.set("highest_peak_db", finite_cell(highest));
   return out;
 }
 

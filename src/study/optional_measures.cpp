@@ -44,7 +44,7 @@ const OptionalMeasures::OfExact& OptionalMeasures::of_exact(const Case& c, const
     if (study_.measures.has(Measure::coverage)) {
       known->second.coverage = coverage_errors(truth.rows, image, box(c.scene));
     }
-    known->second.excursion = excursion_of(truth.rows, image);
+    if (study_.measures.has(Measure::ringing)) known->second.excursion = excursion_of(truth.rows, image);
   }
   return known->second;
 }

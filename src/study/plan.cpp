@@ -48,10 +48,7 @@ std::vector<Case> plan(const Study& study) {
   if (study.measures.has(Measure::spectrum)) {
     for (const NamedScene& scene : study.scenes) {
       const Grid grid = scene.image.grid();
-      if (std::int64_t{grid.width} * grid.height <= kMaxSpectrumPixels &&
-          std::max(grid.width, grid.height) <= kMaxSpectrumSide) {
-        continue;
-      }
+      if (has_spectrum(grid)) continue;
       throw Error("measures", fmt::format("scene \"{}\" has {} x {} pixels, too many for a spectrum; give at most {} "
                                           "pixels, and {} to a side, or leave out \"spectrum\"",
                                           scene.name, grid.width, grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));

@@ -1,9 +1,13 @@
 // Rows of named cells.
 #include "study/results.h"
 
+#include <cmath>
+
 #include <limits>
 
 namespace moire {
+
+Cell finite_cell(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
 
 void Row::set(std::string_view name, Cell value) {
   for (auto& [known, cell] : cells_) {

@@ -13,6 +13,9 @@ namespace moire {
 // An empty cell (monostate) is a missing value: null in JSON, nothing in CSV.
 using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
+// The number, or an empty cell for one that is not finite.
+Cell finite_cell(double value);
+
 // One row: cells in the order in which they were first set. Names carry their unit: time_render_ns.
 class Row {
  public:

@@ -157,7 +157,7 @@ CaseResult run_case(const Study& study, const Case& c, Samples samples, std::int
   row.set("filter", study.filters[c.filter].text());
   row.set("estimator", study.estimators[c.estimator].text);
   row.set("trial", std::int64_t{c.trial});
-  row.set("layout", std::string(layout_names()[static_cast<std::size_t>(study.layouts[c.layout])]));
+  row.set("layout", std::string(name_of(study.layouts[c.layout])));
   row.set("width", std::int64_t{grid.width});
   row.set("height", std::int64_t{grid.height});
   row.set("seed", static_cast<std::int64_t>(study.seed));

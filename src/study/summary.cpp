@@ -136,9 +136,7 @@ std::int64_t trial_count(const Case& c) { return static_cast<std::int64_t>(c.row
 
 Cell method(std::string_view name, bool family) { return std::string(name) + (family ? "-by-line" : ""); }
 
-void set_finite(Row& row, std::string_view name, double value) {
-  row.set(name, std::isfinite(value) ? Cell(value) : Cell());
-}
+void set_finite(Row& row, std::string_view name, double value) { row.set(name, finite_cell(value)); }
 
 void set_interval(Row& row, const std::string& name, const std::optional<Interval>& interval) {
   row.set(name + "_lo", interval ? Cell(interval->lo) : Cell());

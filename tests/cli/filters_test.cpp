@@ -6,20 +6,10 @@
 
 #include "filters/filter.h"
 #include "program.h"
+#include "run_ok.h"
 
 using namespace moire::cli;
 using nlohmann::json;
-
-namespace {
-
-Outcome run_ok(const std::vector<std::string>& args) {
-  Outcome outcome = run_program(args);
-  CHECK(outcome.err.empty());
-  CHECK(outcome.code == 0);
-  return outcome;
-}
-
-}  // namespace
 
 TEST_SUITE("cli") {
   TEST_CASE("without names every variant of every filter has a line, as text and as JSON") {

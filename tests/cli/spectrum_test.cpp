@@ -7,18 +7,12 @@
 
 #include "program.h"
 #include "reports/images.h"
+#include "run_ok.h"
 
 using namespace moire::cli;
 using nlohmann::json;
 
 namespace {
-
-Outcome run_ok(const std::vector<std::string>& args) {
-  Outcome outcome = run_program(args);
-  CHECK(outcome.err.empty());
-  CHECK(outcome.code == 0);
-  return outcome;
-}
 
 json spectrum_of(std::vector<std::string> args) {
   args.insert(args.begin(), "spectrum");
