@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -21,9 +22,15 @@ std::string number_text(const Row& row, std::string_view name, const char* forma
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
-std::string ranked_text(const Row& row, std::string_view value, std::string_view rank, const char* format) {
-  const std::string text = number_text(row, value, format);
-  return text == "-" ? text : fmt::format("{} ({:.0f})", text, row.number(rank));
+// "value [lo, hi] (rank)", the interval where there is one and it is wanted; "-" without a value.
+std::string ranked_text(const Row& row, const std::string& value, std::string_view rank, const char* format,
+                        bool interval) {
+  std::string text = number_text(row, value, format);
+  if (text == "-") return text;
+  if (interval && std::isfinite(row.number(value + "_lo"))) {
+    text += fmt::format(" [{}, {}]", number_text(row, value + "_lo", format), number_text(row, value + "_hi", format));
+  }
+  return text + fmt::format(" ({:.0f})", row.number(rank));
 }
 
 std::string kernel_of(const Row& row) {
@@ -42,13 +49,13 @@ std::vector<std::vector<const Row*>> fields_of(const Table& ranking) {
   return fields;
 }
 
-Line ranking_line(const Row& row) {
+Line ranking_line(const Row& row, bool intervals) {
   const double peaks = row.number("peaks");
-  return {ranked_text(row, "relative_rmse", "rank_rmse", "{:.2f}"),
-          ranked_text(row, "relative_csf", "rank_csf", "{:.2f}"),
-          ranked_text(row, "relative_low_frequency", "rank_low_frequency", "{:.2f}"),
-          ranked_text(row, "low_frequency_ratio", "rank_colour", "{:.2f}"),
-          ranked_text(row, "structured_fraction", "rank_structured", "{:.3f}"),
+  return {ranked_text(row, "relative_rmse", "rank_rmse", "{:.2f}", intervals),
+          ranked_text(row, "relative_csf", "rank_csf", "{:.2f}", intervals),
+          ranked_text(row, "relative_low_frequency", "rank_low_frequency", "{:.2f}", intervals),
+          ranked_text(row, "low_frequency_ratio", "rank_colour", "{:.2f}", intervals),
+          ranked_text(row, "structured_fraction", "rank_structured", "{:.3f}", intervals),
           fmt::format("{:.0f} of {:.0f}", peaks, row.number("n_scenes")) +
               (peaks > 0 ? number_text(row, "highest_peak_db", ", {:.0f} dB") : "")};
 }
@@ -56,11 +63,10 @@ Line ranking_line(const Row& row) {
 constexpr const char* kHeads[] = {"RMSE", "seen", "low-frequency", "colour", "structured", "peaks"};
 
 // "value [lo, hi]" or "-".
-std::string ratio_text(const Row& row) {
-  std::string text = number_text(row, "low_frequency_ratio", "{:.2f}");
-  if (std::isfinite(row.number("low_frequency_ratio_lo"))) {
-    text += number_text(row, "low_frequency_ratio_lo", " [{:.2f}, ") +
-            number_text(row, "low_frequency_ratio_hi", "{:.2f}]");
+std::string interval_text(const Row& row, const std::string& name, const char* format) {
+  std::string text = number_text(row, name, format);
+  if (std::isfinite(row.number(name + "_lo"))) {
+    text += fmt::format(" [{}, {}]", number_text(row, name + "_lo", format), number_text(row, name + "_hi", format));
   }
   return text;
 }
@@ -74,17 +80,28 @@ std::string peak_text(const Row& row) {
 }
 
 std::string scene_table(const Cases& cases, const std::string& scene, const Reconstruction& kernel, std::int64_t spp) {
-  std::vector<Line> lines{{"pattern", "RMSE", "CSF-weighted", "low-frequency ratio", "structured", "strongest peak"}};
+  std::vector<const Row*> rows;
+  bool expected = false;
   for (const std::string& pattern : cases.patterns()) {
     const Row* row = cases.first(scene, pattern, kernel, spp);
     if (row == nullptr || !std::isfinite(row->number("csf_rms"))) continue;
-    lines.push_back({markdown_code(pattern), number_text(*row, "rmse_all", "{:.2e}"),
-                     number_text(*row, "csf_rms", "{:.2e}"), ratio_text(*row),
-                     number_text(*row, "structured_fraction", "{:.3f}") +
-                         number_text(*row, "structured_fraction_error", " +- {:.3f}"),
-                     peak_text(*row)});
+    rows.push_back(row);
+    expected |= std::isfinite(row->number("expected_noise_power"));
   }
-  return lines.size() > 1 ? markdown_table(lines) : "";
+  if (rows.empty()) return "";
+  std::vector<Line> lines{{"pattern", "RMSE", "CSF-weighted", "noise power"}};
+  if (expected) lines[0].push_back("expected");
+  for (const char* head : {"low-frequency ratio", "structured", "strongest peak"}) lines[0].push_back(head);
+  for (const Row* row : rows) {
+    lines.push_back({markdown_code(sampler_of(*row)), number_text(*row, "rmse_all", "{:.2e}"),
+                     number_text(*row, "csf_rms", "{:.2e}"), interval_text(*row, "noise_power", "{:.3e}")});
+    if (expected) lines.back().push_back(number_text(*row, "expected_noise_power", "{:.3e}"));
+    lines.back().push_back(interval_text(*row, "low_frequency_ratio", "{:.2f}"));
+    lines.back().push_back(number_text(*row, "structured_fraction", "{:.3f}") +
+                           number_text(*row, "structured_fraction_error", " +- {:.3f}"));
+    lines.back().push_back(peak_text(*row));
+  }
+  return markdown_table(lines);
 }
 
 }  // namespace
@@ -94,11 +111,13 @@ std::string noise_report(const Summary& summary) {
   const Cases cases(summary.rows);
   std::string out =
       "## The answer: what the errors look like\n\n"
-      "Numbers with their rank in brackets, over the scenes:\n\n"
+      "Numbers, 95% intervals in square brackets (as wide as if the scenes of a trial erred together) and ranks in "
+      "round ones, over the scenes:\n\n"
       "- *RMSE* over all pixels, and *seen*, the same weighted with the eye's contrast sensitivity (Mannos and "
       "Sakrison "
       "1974): geometric means over the scenes of the value over that of the scene's best;\n"
-      "- *low-frequency*: the amplitude of noise below 1/8 cycle per pixel, likewise: grain;\n"
+      "- *low-frequency*: the amplitude of noise below 1/8 cycle per pixel, without that of the mean error, likewise: "
+      "grain;\n"
       "- *colour*: noise power below 1/8 cycle per pixel over what white noise of the same energy has there; 1 is "
       "white, "
       "less is blue;\n"
@@ -114,6 +133,13 @@ std::string noise_report(const Summary& summary) {
       "With the box filter and one pattern per pixel every pixel has samples of its own, so that the noise of any "
       "randomised pattern is white, whatever the pattern's own spectrum: grain is a matter of wide filters, and of "
       "patterns that cross pixels (`layout=image`).\n\n";
+  if (std::any_of(summary.rows.begin(), summary.rows.end(),
+                  [](const Row& row) { return std::isfinite(row.number("expected_noise_power")); })) {
+    out +=
+        "*Expected* is the noise power by theory (Bartlett 1964), where it is known: `random` and `jittered` in one "
+        "set "
+        "over the image, un-normalised. Intervals of noise power take its pixels for independent.\n\n";
+  }
   for (const auto& field : fields_of(summary.noise)) {
     out += fmt::format("### {}, {:.0f} samples per pixel\n\n", markdown_code(kernel_of(*field.front())),
                        field.front()->number("spp"));
@@ -121,7 +147,7 @@ std::string noise_report(const Summary& summary) {
     lines[0].insert(lines[0].end(), std::begin(kHeads), std::end(kHeads));
     for (const Row* row : field) {
       lines.push_back({markdown_code(sampler_of(*row))});
-      const Line cells = ranking_line(*row);
+      const Line cells = ranking_line(*row, true);
       lines.back().insert(lines.back().end(), cells.begin(), cells.end());
     }
     out += markdown_table(lines);
@@ -149,7 +175,7 @@ std::string noise_text(const Summary& summary, bool bold) {
     for (const char* head : kHeads) lines[0].push_back({head, none});
     for (const Row* row : field) {
       lines.push_back({{sampler_of(*row), none}});
-      for (const std::string& cell : ranking_line(*row)) lines.back().push_back({cell, none});
+      for (const std::string& cell : ranking_line(*row, false)) lines.back().push_back({cell, none});
     }
     text += fmt::format("noise over all scenes, {}, {:.0f} samples per pixel\n", kernel_of(*field.front()),
                         field.front()->number("spp")) +
@@ -158,7 +184,7 @@ std::string noise_text(const Summary& summary, bool bold) {
   return text +
          "value (rank); RMSE, seen by the eye, low-frequency noise: over that of the scene's best, geometric mean over "
          "scenes;\ncolour: 1 white, less blue; structured: part of the power that no trial changes; peaks: scenes with "
-         "significant Moire\n\n";
+         "significant Moire;\nwith a box and a pattern in each pixel the noise of any pattern is white\n\n";
 }
 
 }  // namespace moire

@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
 #include "core/error.h"
 #include "core/sum.h"
 #include "measure/contrast_sensitivity.h"
-#include "measure/radial.h"
-#include "measure/spectrum.h"
+#include "measure/radial_spectrum.h"
 #include "reports/preview.h"
 #include "study/noise_measures.h"
 
@@ -23,6 +23,14 @@ struct Coverage {
   std::vector<double> y;
 };
 
+// `ending` in small letters.
+bool ends_in(std::string_view word, std::string_view ending) {
+  if (word.size() < ending.size()) return false;
+  const std::string_view last = word.substr(word.size() - ending.size());
+  return std::equal(last.begin(), last.end(), ending.begin(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
 // The linear luminance of a pixel's channels: the weights of IEC 61966-2-1.
 double luminance(const std::uint8_t* pixel, int channels) {
   if (channels == 1) return linear_of_srgb8(pixel[0]);
@@ -31,7 +39,7 @@ double luminance(const std::uint8_t* pixel, int channels) {
 
 Coverage read_coverage(const std::string& path) {
   Coverage image;
-  if (path.ends_with(".exr")) {
+  if (ends_in(path, ".exr")) {
     const ExrImage exr = read_exr(path);
     image.grid = exr.grid;
     image.y.assign(exr.y.begin(), exr.y.end());
@@ -67,14 +75,13 @@ Coverage read_error(const std::string& path, const std::string& reference) {
 }
 
 Table radial_table(const Spectra& spectra) {
-  const std::vector<Ring> all = rings(spectra.total, spectra.width, spectra.height);
   Table table;
-  for (std::size_t k = 1; k < all.size(); ++k) {
+  for (const RadialSpectrum& ring : radial_spectrum(spectra)) {
     Row row;
-    row.set("frequency", static_cast<double>(k) / std::max(spectra.width, spectra.height));
-    row.set("bins", all[k].bins);
-    row.set("power", all[k].mean);
-    row.set("anisotropy_db", all[k].anisotropy_db);
+    row.set("frequency", ring.frequency);
+    row.set("bins", ring.total.bins);
+    row.set("power", finite_cell(ring.total.mean));
+    row.set("anisotropy_db", finite_cell(ring.total.anisotropy_db));
     table.push_back(std::move(row));
   }
   return table;
@@ -82,13 +89,16 @@ Table radial_table(const Spectra& spectra) {
 
 }  // namespace
 
-SpectrumOutput image_spectrum(const std::string& path, const std::string& reference) {
+bool is_image_name(std::string_view word) { return ends_in(word, ".exr") || ends_in(word, ".png"); }
+
+SpectrumOutput image_spectrum(const std::string& path, const std::string& reference, SpectrumWindow window,
+                              double pixels_per_degree) {
   const Coverage error = read_error(path, reference);
   if (!has_spectrum(error.grid)) {
     throw Error(path, fmt::format("has {} x {} pixels; a spectrum takes at most {}, and {} to a side", error.grid.width,
                                   error.grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
   }
-  ErrorSpectra collected(error.grid.width, error.grid.height, SpectrumWindow::none);
+  ErrorSpectra collected(error.grid.width, error.grid.height, window);
   collected.add(error.y);
   const Spectra spectra = collected.finish();
   Sum sum, squares;
@@ -97,17 +107,19 @@ SpectrumOutput image_spectrum(const std::string& path, const std::string& refere
     squares.add(e * e);
   }
   const double pixels = static_cast<double>(error.y.size());
-  const double rmse = std::sqrt(squares.value() / pixels), csf_rms = csf_weighted_rms(spectra);
+  const double rmse = std::sqrt(squares.value() / pixels), csf_rms = csf_weighted_rms(spectra, pixels_per_degree);
 
   SpectrumOutput out;
   out.title =
-      fmt::format("{}{}, {} x {} pixels: RMS {:.4g}, weighted with the eye's contrast sensitivity {:.4g}", path,
-                  reference.empty() ? "" : " - " + reference, error.grid.width, error.grid.height, rmse, csf_rms);
+      fmt::format("{}{}, {} x {} pixels{}: RMS {:.4g}, weighted with the eye's contrast sensitivity {:.4g}", path,
+                  reference.empty() ? "" : " - " + reference, error.grid.width, error.grid.height,
+                  window == SpectrumWindow::none ? "" : fmt::format(", window {}", name_of(window)), rmse, csf_rms);
   out.head.set("what", path);
   out.head.set("reference", reference.empty() ? Cell() : Cell(reference));
   out.head.set("width", std::int64_t{error.grid.width});
   out.head.set("height", std::int64_t{error.grid.height});
-  out.head.set("window", std::string("none"));
+  out.head.set("window", std::string(name_of(window)));
+  out.head.set("pixels_per_degree", pixels_per_degree);
   out.head.set("bias", sum.value() / pixels);
   out.head.set("rmse", rmse);
   out.head.set("csf_rms", csf_rms);
@@ -115,12 +127,15 @@ SpectrumOutput image_spectrum(const std::string& path, const std::string& refere
   out.columns = {
       {"frequency", "{:.4f}", "cycles per pixel: the middle of a ring as wide as one step"},
       {"bins", "", "frequencies in it; the rings above 0.5 have corners alone"},
-      {"power", "{:.4g}", "mean power per pixel; the mean over all bins, that of zero too, is the mean squared error"},
+      {"power", "{:.4g}",
+       window == SpectrumWindow::none
+           ? "mean power per pixel; the mean over all bins, that of zero too, is the mean squared error"
+           : "mean power per pixel, through the window; rings without the 3 x 3 bins of the mean error"},
       {"anisotropy_db", "{:.1f}", "variance over mean^2 of the ring's bins (Ulichney 1988); isotropic: about 0 dB"}};
   out.grid = error.grid;
   out.power = spectra.total;
   out.scale = PowerScale::logarithmic;
-  out.attributes = {{"moire:window", "none"}};
+  out.attributes = {{"moire:window", std::string(name_of(window))}};
   return out;
 }
 

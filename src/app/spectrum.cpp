@@ -32,6 +32,21 @@ void check_work(std::int64_t points, int frequencies, const std::string& place) 
   }
 }
 
+// Candidates that dart-throwing may look at, over all sets: again some three minutes of one core.
+constexpr double kMaxDarts = 0x1p33;
+
+// Throws where to make the points would take longer than any spectrum of them. Of the patterns dart-throwing alone is
+// that slow (dart_throwing.cpp has the number of its candidates).
+void check_making(const PatternChoice& choice, std::int64_t n, std::int64_t sets) {
+  if (choice.info().name != "dart-throwing") return;
+  const double darts = 40 * static_cast<double>(choice.args().integer("k")) + 400 * static_cast<double>(n);
+  if (static_cast<double>(sets) * darts > kMaxDarts) {
+    throw Error("--n", fmt::format("{} sets of {} points by {} would take longer to make than their spectrum; {:.0f} "
+                                   "such sets are possible, or more with fewer points or a smaller k",
+                                   sets, n, choice.text(), std::floor(kMaxDarts / darts)));
+  }
+}
+
 // The expected power of a pattern at F x F frequencies, as PointSpectrum::power() has it; empty where it is not known.
 std::vector<double> expected_power(const PatternChoice& choice, std::int64_t n, int frequencies) {
   const std::string_view name = choice.info().name;
@@ -58,7 +73,7 @@ Table radial_table(const PointSpectrum& spectrum, const std::vector<double>& pow
     row.set("power", ring.power);
     row.set("power_lo", band ? Cell(ring.band.lo) : Cell());
     row.set("power_hi", band ? Cell(ring.band.hi) : Cell());
-    row.set("anisotropy_db", ring.anisotropy_db);
+    row.set("anisotropy_db", finite_cell(ring.anisotropy_db));
     if (!theory.empty()) row.set("expected", theory[table.size()].power);
     table.push_back(std::move(row));
   }
@@ -91,6 +106,7 @@ SpectrumOutput pattern_spectrum(const SpectrumOptions& options) {
   const std::int64_t sets = choice.varies() ? options.trials.value_or(kUsualTrials) : 1;
   const int frequencies = options.frequencies > 0 ? options.frequencies : usual_frequencies(options.n);
   check_work(std::max(options.n, kMinCounted) * sets, frequencies, "--n");
+  check_making(choice, options.n, sets);
   PointSpectrum spectrum(frequencies);
   std::vector<double> x(static_cast<std::size_t>(options.n)), y(x.size());
   for (std::int64_t t = 0; t < sets; ++t) {
@@ -140,15 +156,15 @@ SpectrumOutput points_spectrum(const SpectrumOptions& options) {
   return out;
 }
 
-bool is_image(const std::string& word) { return word.ends_with(".exr") || word.ends_with(".png"); }
-
 }  // namespace
 
 Exit execute(const SpectrumOptions& options) {
   if (!options.folder.empty()) make_folder(options.folder);
-  const SpectrumOutput output = !options.points.empty()  ? points_spectrum(options)
-                                : is_image(options.what) ? image_spectrum(options.what, options.reference)
-                                                         : pattern_spectrum(options);
+  const SpectrumOutput output =
+      !options.points.empty() ? points_spectrum(options)
+      : is_image_name(options.what)
+          ? image_spectrum(options.what, options.reference, options.window, options.pixels_per_degree)
+          : pattern_spectrum(options);
   if (!options.folder.empty()) write_spectrum(options.folder, output);
   print(options.json ? spectrum_json(output) : spectrum_text(output));
   return Exit::ok;

@@ -21,7 +21,8 @@ double csf_weighted_rms(const Spectra& spectra, double pixels_per_degree) {
   for (int row = 0; row < spectra.height; ++row) {
     for (int column = 0; column < spectra.width; ++column) {
       const double x = spectra.frequency_x(column), y = spectra.frequency_y(row);
-      const double weight = contrast_sensitivity(std::sqrt(x * x + y * y) * pixels_per_degree);
+      const double frequency = spectra.is_mean(column, row) ? 0.0 : std::sqrt(x * x + y * y);
+      const double weight = contrast_sensitivity(frequency * pixels_per_degree);
       sum.add(spectra.total[spectra.index(column, row)] * (weight * weight));
     }
   }

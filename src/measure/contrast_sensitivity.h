@@ -18,7 +18,8 @@ double contrast_sensitivity(double cycles_per_degree);
 
 // sqrt(mean over the bins of total power x contrast_sensitivity(|f| pixels_per_degree)^2), in units of coverage: the
 // RMS error if the eye saw all frequencies as well as its best one. The mean error counts with the formula's value at
-// 0, 0.051: a shift of the whole image's brightness is hardly seen. (It has its own number, the bias.)
+// 0, 0.051: a shift of the whole image's brightness is hardly seen. (It has its own number, the bias.) So do all bins
+// over which a window spreads it (Spectra::is_mean), so that a constant error weighs the same with and without window.
 // `pixels_per_degree` > 0.
 double csf_weighted_rms(const Spectra& spectra, double pixels_per_degree = kPixelsPerDegree);
 

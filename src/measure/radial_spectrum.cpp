@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "measure/chi_square.h"
@@ -12,20 +13,22 @@
 namespace moire {
 namespace {
 
-// The places of each ring's bins; those of ring 0, which is zero frequency, too.
+// The places of each ring's bins.
 std::vector<std::vector<std::size_t>> bins_of_rings(const Spectra& s, std::size_t count) {
   std::vector<std::vector<std::size_t>> bins(count);
   for (int row = 0; row < s.height; ++row) {
-    for (int column = 0; column < s.width; ++column)
+    for (int column = 0; column < s.width; ++column) {
+      if (s.is_mean(column, row)) continue;
       bins[static_cast<std::size_t>(ring_of_bin(s, column, row))].push_back(s.index(column, row));
+    }
   }
   return bins;
 }
 
 // Adds what depends on the noise to all rings.
 void judge(const Spectra& s, std::vector<RadialSpectrum>& out) {
-  const std::vector<Ring> structured = rings(s.structured, s.width, s.height);
-  const std::vector<Ring> noise = rings(s.noise, s.width, s.height);
+  const std::vector<Ring> structured = rings(s.structured, s.width, s.height, s.mean_bins());
+  const std::vector<Ring> noise = rings(s.noise, s.width, s.height, s.mean_bins());
   const NoiseEnvelope envelope(s);
   const double t = static_cast<double>(s.trials);
   const std::vector<std::vector<std::size_t>> bins = bins_of_rings(s, noise.size());
@@ -59,7 +62,10 @@ int ring_of_bin(const Spectra& spectra, int column, int row) {
 }
 
 std::vector<RadialSpectrum> radial_spectrum(const Spectra& spectra) {
-  const std::vector<Ring> total = rings(spectra.total, spectra.width, spectra.height);
+  const std::vector<std::uint8_t> mean = spectra.mean_bins();
+  const std::vector<Ring> total = rings(spectra.total, spectra.width, spectra.height, mean);
+  std::vector<Ring> expected;
+  if (!spectra.expected.empty()) expected = rings(spectra.expected, spectra.width, spectra.height, mean);
   std::vector<RadialSpectrum> out;
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 1; k < total.size(); ++k) {
@@ -67,6 +73,7 @@ std::vector<RadialSpectrum> radial_spectrum(const Spectra& spectra) {
     ring.frequency = static_cast<double>(k) / std::max(spectra.width, spectra.height);
     ring.total = total[k];
     ring.structured = ring.noise = ring.structured_error = kNan;
+    ring.expected = expected.empty() ? kNan : expected[k].mean;
     out.push_back(ring);
   }
   if (spectra.has_split()) judge(spectra, out);

@@ -2,16 +2,22 @@
 #include "measure/spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
 
+#include "core/error.h"
+#include "core/names.h"
 #include "core/sum.h"
 #include "measure/dft.h"
 
 namespace moire {
 namespace {
+
+constexpr auto kWindowNames = std::to_array<std::string_view>({"none", "hann"});
 
 std::size_t area(int width, int height) { return static_cast<std::size_t>(std::int64_t{width} * height); }
 
@@ -24,7 +30,36 @@ double mean_square(std::span<const double> values) {
 // Bins by which the window spreads a tone along an axis of n pixels. With n < 3 Hann is a constant.
 int lobe(SpectrumWindow window, int n) { return window == SpectrumWindow::hann && n >= 3 ? 1 : 0; }
 
+// The part of a trial that lies in the bins of the mean error, as coordinates along orthonormal images: the product of
+// two trials there is the sum of products of theirs.
+std::vector<double> mean_part(std::span<const std::complex<double>> spectrum, SpectrumWindow window, int width,
+                              int height) {
+  std::vector<double> part;
+  const double pixels = static_cast<double>(width) * height;
+  for (int l = -lobe(window, height); l <= lobe(window, height); ++l) {
+    for (int k = 0; k <= lobe(window, width); ++k) {
+      const double unit = std::sqrt((k == 0 ? 1 : 2) / pixels);  // column -k has the same
+      const std::complex<double> c =
+          spectrum[static_cast<std::size_t>(std::int64_t{(l + height) % height} * dft_columns(width) + k)];
+      part.push_back(unit * c.real());
+      part.push_back(unit * c.imag());
+    }
+  }
+  return part;
+}
+
 }  // namespace
+
+std::span<const std::string_view> window_names() { return kWindowNames; }
+
+std::string_view name_of(SpectrumWindow window) { return kWindowNames[static_cast<std::size_t>(window)]; }
+
+SpectrumWindow find_window(std::string_view name, std::string_view place) {
+  for (std::size_t i = 0; i < kWindowNames.size(); ++i) {
+    if (kWindowNames[i] == name) return static_cast<SpectrumWindow>(i);
+  }
+  throw Error(std::string(place), unknown_name("window", name, kWindowNames));
+}
 
 std::vector<double> window_values(SpectrumWindow window, int n) {
   std::vector<double> values(static_cast<std::size_t>(n), 1.0);
@@ -39,6 +74,14 @@ std::vector<double> window_values(SpectrumWindow window, int n) {
 
 bool Spectra::is_mean(int column, int row) const noexcept {
   return std::abs(column - width / 2) <= lobe(window, width) && std::abs(row - height / 2) <= lobe(window, height);
+}
+
+std::vector<std::uint8_t> Spectra::mean_bins() const {
+  std::vector<std::uint8_t> mask;
+  mask.reserve(total.size());
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) mask.push_back(is_mean(column, row) ? 1 : 0);
+  return mask;
 }
 
 bool Spectra::is_first(int column, int row) const noexcept {
@@ -76,6 +119,7 @@ void ErrorSpectra::add(std::span<const double> error) {
     }
   }
   const std::vector<std::complex<double>> spectrum = real_dft(windowed, width_, height_);
+  groups_.add(windowed, mean_part(spectrum, window_, width_, height_));
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
     const std::complex<double> from_old = spectrum[k] - mean_[k];
     mean_[k] += from_old / t;
@@ -103,6 +147,7 @@ Spectra ErrorSpectra::finish(bool varies) const {
   }
 
   const double scale = 1 / (static_cast<double>(pixels) * mean_square(window_x_) * mean_square(window_y_));
+  if (trials_ > 1) s.products = groups_.finish(scale);
   for (int row = 0; row < height_; ++row) {
     for (int column = 0; column < width_; ++column) {
       // Where the transform has this bin, k >= 0 and l modulo the height; of a pair, both read the same one.

@@ -16,7 +16,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
+
+#include "measure/trial_products.h"
 
 namespace moire {
 
@@ -26,9 +29,18 @@ enum class SpectrumWindow {
   // sin^2(pi x / width) sin^2(pi y / height) at pixel centres (periodic Hann, moved by half a pixel: it is symmetric in
   // the image and not zero in any pixel). An image that does not go on periodically, such as an edge that leaves it,
   // else spreads its power along the axes. Power is divided by the mean of the squared window, so that the level of
-  // white noise is unchanged. A pure tone is spread over 3 x 3 bins; so is the mean error.
+  // white noise is unchanged. A pure tone is spread over 3 x 3 bins; so is the mean error. Rings, shares and the eye's
+  // weights therefore take all of these nine bins for zero frequency (Spectra::is_mean). To subtract the mean before
+  // the window would empty them of what else is there: of white noise 4/9 in the four bins on the axes, 16/81 in the
+  // corners; and what the window has mixed no factor can part again.
   hann,
 };
+
+// Names as studies and the command line have them, in the order of the enumeration.
+std::span<const std::string_view> window_names();
+std::string_view name_of(SpectrumWindow window);
+// Throws Error with the names.
+SpectrumWindow find_window(std::string_view name, std::string_view place);
 
 // The window's values along one axis of n pixels.
 std::vector<double> window_values(SpectrumWindow window, int n);
@@ -50,6 +62,10 @@ struct Spectra {
   // Per pixel: squared window times the sample variance of the error. Where in the image the noise is, which decides
   // how much the noise of different bins has to do with each other (noise_envelope.h).
   std::vector<double> energy;
+  // Of the trials among themselves, for standard errors; without the bins of the mean error.
+  TrialProducts products;
+  // What theory expects `noise` to be (noise_theory.h), where somebody knows and sets it; else empty.
+  std::vector<double> expected;
 
   bool has_split() const noexcept { return !noise.empty(); }
   std::size_t index(int column, int row) const noexcept {
@@ -60,14 +76,21 @@ struct Spectra {
   // The bin is zero frequency or holds the mean error's leakage through the window: the 3 x 3 bins in the middle for
   // hann, one bin without window, and along an axis of 1 or 2 pixels, where the window is constant.
   bool is_mean(int column, int row) const noexcept;
+  // 1 for the bins of which is_mean() is true, in the order of the arrays.
+  std::vector<std::uint8_t> mean_bins() const;
   // Of each pair of conjugate bins exactly one is first, and bins that are their own conjugate are.
   bool is_first(int column, int row) const noexcept;
 };
 
-// Collects trials. Keeps 28 bytes per pixel and needs 32 more while it adds. Not to be shared between threads; several
-// objects may be in use at once. The same bits for any number of threads.
+// Collects trials. Keeps bytes_per_pixel() and needs 32 more per pixel while it adds. Not to be shared between threads;
+// several objects may be in use at once. The same bits for any number of threads.
 class ErrorSpectra {
  public:
+  // What is kept of each pixel after so many trials; up to 8 bytes a row of pixels more. At most 156.
+  static constexpr std::int64_t bytes_per_pixel(std::int64_t trials) {
+    return 28 + TrialGroups::bytes_per_pixel(trials);
+  }
+
   // Any size from 1 x 1 on.
   ErrorSpectra(int width, int height, SpectrumWindow window);
 
@@ -89,6 +112,7 @@ class ErrorSpectra {
   std::vector<std::complex<double>> mean_;  // of the half spectrum (dft.h)
   std::vector<double> deviations_;          // sums of |spectrum - mean|^2 of the half spectrum
   std::vector<double> pixel_mean_, pixel_deviations_;
+  TrialGroups groups_;
 };
 
 }  // namespace moire

@@ -1,11 +1,14 @@
 // The measure `spectrum`.
 #include "study/noise_measures.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/sum.h"
 #include "measure/contrast_sensitivity.h"
 #include "measure/radial_spectrum.h"
@@ -34,23 +37,56 @@ std::vector<double> dense_error(const Truth& truth, const CaseResult& result) {
   return error;
 }
 
-std::string_view name_of(SpectrumWindow window) { return window == SpectrumWindow::hann ? "hann" : "none"; }
+void set_interval(Row& row, const std::string& name, const std::optional<Interval>& interval) {
+  row.set(name + "_lo", interval ? Cell(interval->lo) : Cell());
+  row.set(name + "_hi", interval ? Cell(interval->hi) : Cell());
+}
 
 }  // namespace
+
+std::int64_t spectrum_bytes(const Study& study, std::uint32_t scene) {
+  const Grid grid = study.scenes[scene].image.grid();
+  const auto cases = static_cast<std::int64_t>(study.layouts.size() * study.filters.size() * study.estimators.size());
+  return cases * grid.width * grid.height * ErrorSpectra::bytes_per_pixel(study.trials);
+}
+
+void require_spectra(const Study& study) {
+  if (!study.measures.has(Measure::spectrum)) return;
+  for (std::uint32_t i = 0; i < study.scenes.size(); ++i) {
+    const NamedScene& scene = study.scenes[i];
+    const Grid grid = scene.image.grid();
+    if (!has_spectrum(grid)) {
+      throw Error("measures", fmt::format("scene \"{}\" has {} x {} pixels, too many for a spectrum; give at most {} "
+                                          "pixels, and {} to a side, or leave out \"spectrum\"",
+                                          scene.name, grid.width, grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
+    }
+    if (spectrum_bytes(study, i) > kMaxSpectrumBytes) {
+      throw Error("measures",
+                  fmt::format("the spectra of scene \"{}\" ({} x {} pixels in {} layouts, {} filters and {} "
+                              "estimators, {} bytes per pixel over {} trials) would take {} MiB at once; {} are "
+                              "possible: fewer of these, a smaller image, or no \"spectrum\"",
+                              scene.name, grid.width, grid.height, study.layouts.size(), study.filters.size(),
+                              study.estimators.size(), ErrorSpectra::bytes_per_pixel(study.trials), study.trials,
+                              spectrum_bytes(study, i) >> 20, kMaxSpectrumBytes >> 20));
+    }
+  }
+}
 
 void set_spectrum(Row& row, const Spectra& spectra, double pixels_per_degree) {
   row.set("spectrum_window", std::string(name_of(spectra.window)));
   row.set("noise_power", mean_cell(spectra.noise));
+  set_interval(row, "noise_power", noise_power_interval(spectra));
+  row.set("expected_noise_power", mean_cell(spectra.expected));
   row.set("structured_power", mean_cell(spectra.structured));
   const LowFrequencyRatio low = low_frequency_ratio(spectra);
   row.set("low_frequency_ratio", finite_cell(low.ratio));
-  row.set("low_frequency_ratio_lo", low.interval ? Cell(low.interval->lo) : Cell());
-  row.set("low_frequency_ratio_hi", low.interval ? Cell(low.interval->hi) : Cell());
-  const double* noise = std::get_if<double>(row.find("noise_power"));
-  row.set("low_frequency_noise", noise != nullptr ? finite_cell(low.ratio * *noise) : Cell());
+  set_interval(row, "low_frequency_ratio", low.interval);
+  row.set("low_frequency_noise", finite_cell(low.low));
+  set_interval(row, "low_frequency_noise", low.low_interval);
   const StructuredFraction structured = structured_fraction(spectra);
   row.set("structured_fraction", finite_cell(structured.fraction));
   row.set("structured_fraction_error", finite_cell(structured.error));
+  row.set("structured_fraction_chance", finite_cell(structured.chance));
   const std::optional<SpectralPeak> peak = strongest_peak(spectra);
   row.set("peak_fx", peak ? Cell(peak->fx) : Cell());
   row.set("peak_fy", peak ? Cell(peak->fy) : Cell());
@@ -72,8 +108,8 @@ Table radial_rows(const Spectra& spectra) {
     row.set("structured", finite_cell(ring.structured));
     row.set("structured_error", finite_cell(ring.structured_error));
     row.set("noise", finite_cell(ring.noise));
-    row.set("noise_lo", ring.noise_interval ? Cell(ring.noise_interval->lo) : Cell());
-    row.set("noise_hi", ring.noise_interval ? Cell(ring.noise_interval->hi) : Cell());
+    set_interval(row, "noise", ring.noise_interval);
+    row.set("expected", finite_cell(ring.expected));
     row.set("degrees", finite_cell(ring.degrees));
     row.set("anisotropy_db", finite_cell(ring.total.anisotropy_db));
     rows.push_back(std::move(row));
@@ -88,8 +124,9 @@ std::optional<Spectra> NoiseMeasures::add(const Case& c, std::uint32_t trials, c
   ErrorSpectra& spectra = under_way_.try_emplace(key, grid.width, grid.height, study_.spectrum.window).first->second;
   spectra.add(dense_error(truth, result));
   if (c.trial + 1 < trials) return std::nullopt;
-  Spectra finished = spectra.finish(study_.patterns[c.pattern].varies());
+  Spectra finished = spectra.finish(varies(study_, c.scene, c.pattern));
   under_way_.erase(key);
+  finished.expected = theory_.of(c);
   set_spectrum(result.row, finished, study_.spectrum.pixels_per_degree);
   return finished;
 }

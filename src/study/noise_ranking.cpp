@@ -25,23 +25,26 @@ double mean_of(const std::vector<const Row*>& rows, std::string_view name) {
 
 // The mean over the scenes, 0 where it is within two standard errors of it.
 double mean_or_chance(const std::vector<const Row*>& rows, std::string_view name, std::string_view error) {
-  double squares = 0;
-  for (const Row* row : rows) squares += row->number(error) * row->number(error);
   const double mean = mean_of(rows, name);
-  return std::fabs(mean) <= 2 * std::sqrt(squares) / static_cast<double>(rows.size()) ? 0 : mean;
+  return std::fabs(mean) <= 2 * mean_of(rows, error) ? 0 : mean;
 }
 
 // What is ranked by its ratio to the best: an error, or the root of a power.
 struct Amplitude {
   std::string_view column;
   bool is_power;
-  double of(const Row& row) const { return is_power ? std::sqrt(row.number(column)) : row.number(column); }
+  // `end`: "", or "_lo" or "_hi" for the ends of its interval.
+  double of(const Row& row, std::string_view end = "") const {
+    const double value = row.number(std::string(column) + std::string(end));
+    return is_power ? std::sqrt(value) : value;
+  }
 };
 constexpr Amplitude kRmse{"rmse_all", false}, kCsf{"csf_rms", false}, kLowFrequency{"low_frequency_noise", true};
 
-// Geometric mean over the scenes of an amplitude over the smallest of its scene. Scenes on which somebody has none at
-// all say nothing of ratios.
-double relative(const std::vector<const Row*>& rows, const Amplitude& amplitude, const Field& field) {
+// Geometric mean over the scenes of an amplitude, or an end of its interval, over the smallest of its scene. Scenes on
+// which somebody has none at all say nothing of ratios.
+double relative(const std::vector<const Row*>& rows, const Amplitude& amplitude, const Field& field,
+                std::string_view end = "") {
   double sum = 0, count = 0;
   for (const Row* row : rows) {
     double least = std::nan("");
@@ -49,7 +52,7 @@ double relative(const std::vector<const Row*>& rows, const Amplitude& amplitude,
       if (other->text("scene") == row->text("scene")) least = std::fmin(least, amplitude.of(*other));
     }
     if (!(least > 0)) continue;
-    sum += std::log(amplitude.of(*row) / least);
+    sum += std::log(amplitude.of(*row, end) / least);
     count += 1;
   }
   return std::exp(sum / count);
@@ -74,13 +77,21 @@ Row standing(const std::vector<const Row*>& rows, const Field& field) {
     highest = std::fmax(highest, row->number("peak_height_db"));
   }
   out.set("n_scenes", static_cast<std::int64_t>(rows.size()));
-  out.set("relative_rmse", finite_cell(relative(rows, kRmse, field)));
+  for (const std::string end : {"", "_lo", "_hi"})
+    out.set("relative_rmse" + end, finite_cell(relative(rows, kRmse, field, end)));
   out.set("relative_csf", finite_cell(relative(rows, kCsf, field)));
-  out.set("relative_low_frequency", finite_cell(relative(rows, kLowFrequency, field)));
-  out.set("low_frequency_ratio", finite_cell(mean_of(rows, "low_frequency_ratio")));
-  out.set("structured_fraction", finite_cell(mean_of(rows, "structured_fraction")));
+  for (const std::string end : {"", "_lo", "_hi"})
+    out.set("relative_low_frequency" + end, finite_cell(relative(rows, kLowFrequency, field, end)));
+  for (const std::string end : {"", "_lo", "_hi"})
+    out.set("low_frequency_ratio" + end, finite_cell(mean_of(rows, "low_frequency_ratio" + end)));
+  const double fraction = mean_of(rows, "structured_fraction");
+  const double two_errors = 2 * mean_of(rows, "structured_fraction_error");
+  const bool varies = two_errors > 0;
+  out.set("structured_fraction", finite_cell(fraction));
+  out.set("structured_fraction_lo", varies ? finite_cell(fraction - two_errors) : Cell());
+  out.set("structured_fraction_hi", varies ? finite_cell(fraction + two_errors) : Cell());
   out.set("structured_beyond_chance",
-          finite_cell(mean_or_chance(rows, "structured_fraction", "structured_fraction_error")));
+          finite_cell(mean_or_chance(rows, "structured_fraction", "structured_fraction_chance")));
   out.set("peaks", peaks);
   out.set("highest_peak_db", finite_cell(highest));
   return out;

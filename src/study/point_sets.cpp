@@ -54,6 +54,14 @@ bool is_header(const Fields& fields) {
   return true;
 }
 
+// A line without the byte order mark of UTF-8 (RFC 3629, section 6), with which some editors begin a file. `first`:
+// whether the line is the file's first; false then.
+std::string_view without_mark(std::string_view line, bool& first) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (std::exchange(first, false) && line.starts_with(kMark)) line.remove_prefix(kMark.size());
+  return line;
+}
+
 class Parser {
  public:
   explicit Parser(const std::string& file) : file_(file) {}
@@ -140,16 +148,17 @@ class Parser {
 std::vector<PointSet> parse_point_sets(const std::function<std::size_t(char* bytes, std::size_t size)>& read,
                                        const std::string& file) {
   Parser parser(file);
+  bool first = true;
   std::string buffer(std::size_t{1} << 18, '\0');
   std::size_t kept = 0;  // bytes of a line that is not whole yet, at the front
   for (;;) {
     const std::size_t got = read(buffer.data() + kept, buffer.size() - kept);
     std::string_view rest(buffer.data(), kept + got);
     for (std::size_t end; (end = rest.find('\n')) != std::string_view::npos; rest.remove_prefix(end + 1)) {
-      parser.line(rest.substr(0, end));
+      parser.line(without_mark(rest.substr(0, end), first));
     }
     if (got == 0) {
-      if (!rest.empty()) parser.line(rest);
+      if (!rest.empty()) parser.line(without_mark(rest, first));
       return parser.finish();
     }
     if (rest.size() > kMaxLine) parser.line(rest);  // which refuses it

@@ -21,7 +21,8 @@ inline constexpr std::size_t kMaxSetPoints = std::size_t{1} << 26;
 // may differ. `path` "-" is standard input. A line has a point: x,y or x,y,t, as many on all lines, with commas, blanks
 // or tabs between them, in decimal. The first line of a set may be a header, x,y or x,y,t. A line that begins with #
 // ends a set, so that several of them, or one before the first set or after the last, make no empty set; empty lines
-// count for nothing. Lines may end with CR LF. 10^7 points take about 2 s.
+// count for nothing. Lines may end with CR LF, and a file may begin with the byte order mark of UTF-8. 10^7 points take
+// about 2 s.
 //
 // Throws Error at FILE:LINE:COLUMN for what is no point, at FILE for no points or more than kMaxSetPoints, and
 // (Exit::io) for a file that cannot be read.

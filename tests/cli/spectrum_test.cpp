@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -179,6 +180,55 @@ TEST_SUITE("cli") {
           std::string::npos);
   }
 
+  TEST_CASE("an image's window and the display's pixels per degree can be chosen, and are told") {
+    const Folder folder;
+    // A constant error of 1/4: at zero frequency alone, with either window.
+    moire::write_exr(folder / "flat.exr", {16, 16}, std::vector<float>(256, 0.25F), {});
+    for (const std::string window : {"none", "hann"}) {
+      const json flat = spectrum_of({folder / "flat.exr", "--window", window, "--pixels-per-degree", "24.5"});
+      CHECK(flat["window"] == window);
+      CHECK(flat["pixels_per_degree"] == 24.5);
+      CHECK(flat["rmse"] == 0.25);
+      // The sensitivity at zero, 0.04992 / 0.98087787655726166; a few roundings.
+      CHECK(std::abs(flat["csf_rms"].get<double>() / (0.25 * 0.04992 / 0.98087787655726166) - 1) < 1e-14);
+      CHECK(flat["power"][0].is_null() == (window == "hann"));  // the ring has the bins of the mean error alone
+      // 1e-13 of the amplitude at most (dft.h), squared.
+      for (std::size_t k = 1; k < flat["power"].size(); ++k) CHECK(flat["power"][k].get<double>() <= 1e-26 * 16);
+    }
+    // A tone at 3/16 cycle per pixel is seen best at 8 cycles per degree: 42 pixels per degree.
+    std::vector<float> tone;
+    for (int i = 0; i < 256; ++i)
+      tone.push_back(static_cast<float>(std::cos(2 * 3.14159265358979323846 * 3 * (i % 16) / 16)));
+    moire::write_exr(folder / "tone.exr", {16, 16}, tone, {});
+    const auto seen = [&](const char* per_degree) {
+      return spectrum_of({folder / "tone.exr", "--pixels-per-degree", per_degree})["csf_rms"].get<double>();
+    };
+    CHECK(seen("42") > seen("32"));
+    CHECK(seen("42") > seen("60"));
+    CHECK(spectrum_of({folder / "tone.exr"})["pixels_per_degree"] == 32);
+    CHECK(seen("32") == spectrum_of({folder / "tone.exr"})["csf_rms"].get<double>());
+    CHECK(run_ok({"spectrum", folder / "tone.exr", "--window", "hann"}).out.find("16 x 16 pixels, window hann: RMS") !=
+          std::string::npos);
+  }
+
+  TEST_CASE("names of images in capitals are names of images") {
+    const Folder folder;
+    moire::write_png(folder / "grey.png", {{4, 4}, 1, std::vector<std::uint8_t>(16, 188), {}});
+    moire::write_exr(folder / "flat.exr", {4, 4}, std::vector<float>(16, 0.25F), {});
+    std::filesystem::rename(folder / "grey.png", folder / "GREY.PNG");
+    std::filesystem::rename(folder / "flat.exr", folder / "flat.Exr");
+    CHECK(spectrum_of({folder / "GREY.PNG"})["width"] == 4);
+    CHECK(spectrum_of({folder / "flat.Exr"})["rmse"] == 0.25);
+  }
+
+  TEST_CASE("a single point has the same power at all frequencies, and no anisotropy") {
+    const Folder folder;
+    const json object = spectrum_of({"--points", folder.write("one.txt", "0.3 0.7\n"), "--frequencies", "16"});
+    for (const json& value : object["power"]) CHECK(std::abs(value.get<double>() - 1) < 4e-14);  // point_spectrum.h
+    // It was -323 dB: the scatter of rounding.
+    for (const json& value : object["anisotropy_db"]) CHECK(value.is_null());
+  }
+
   TEST_CASE("a PNG is decoded to linear coverage") {
     const Folder folder;
     moire::Raster grey{{4, 4}, 1, std::vector<std::uint8_t>(16, 188), {}};  // 188 is about 1/2 of linear light
@@ -209,6 +259,14 @@ TEST_SUITE("cli") {
     refused({"jittered", "--points", "-"}, "one of a pattern");
     refused({"jitered", "--n", "16"}, "did you mean jittered");
     refused({"jittered"}, "--n is missing");
+    refused({"jitered"}, "did you mean jittered");
+    refused({"jittered:amont=1"}, "amount");
+    refused({"jittered", "--n", "16", "--window", "hann"}, "--window: does not go with a pattern");
+    refused({"--points", "-", "--pixels-per-degree", "32"}, "--pixels-per-degree: does not go with --points");
+    refused({"none.exr", "--window", "hamming"}, "choose from none, hann");
+    refused({"none.exr", "--pixels-per-degree", "0.5"}, "give a number, 1 to 1000");
+    refused({"none.exr", "--pixels-per-degree", "nan"}, "give a number, 1 to 1000");
+    refused({"dart-throwing", "--n", "10000000", "--frequencies", "64"}, "2 such sets are possible");
     refused({"jittered", "--n", "15"}, "nearest: 9, 16");
     refused({"jittered", "--n", "16", "--frequencies", "7"}, "even");
     refused({"jittered", "--n", "16", "--frequencies", "5000"}, "4 to 4096");
