@@ -1,4 +1,4 @@
-// moire points: a pattern's points in one pixel.
+// moire points: a pattern's points in one pixel, with their times where these are asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,22 +13,22 @@ namespace moire {
 
 Exit execute(const PointsOptions& options) {
   const PatternChoice choice(parse_spec(options.pattern, "PATTERN"));
-  if (options.dims != 2) {
-    throw Error("--dims",
-                fmt::format("pattern \"{}\" has points in 2 dimensions, without a time; give 2", choice.info().name));
-  }
+  const bool with_time = options.dims == 3;
+  if (with_time) choice.require_time();
   choice.require_count(options.n);
   const Pattern pattern(choice, static_cast<int>(options.n), Draw{options.seed, options.trial});
   const auto n = static_cast<std::size_t>(options.n);
-  std::vector<double> x(n), y(n);
-  pattern.fill_set({x, y});
+  std::vector<double> x(n), y(n), t(with_time ? n : 0);
+  pattern.fill_set({x, y, t});
 
-  print("x,y\n");
+  print(with_time ? "x,y,t\n" : "x,y\n");
   constexpr std::size_t kBlock = 4096;  // lines printed at a time
   for (std::size_t begin = 0; begin < n; begin += kBlock) {
     std::string lines;
     for (std::size_t i = begin; i < std::min(n, begin + kBlock); ++i) {
-      fmt::format_to(std::back_inserter(lines), "{:.17g},{:.17g}\n", x[i], y[i]);
+      fmt::format_to(std::back_inserter(lines), "{:.17g},{:.17g}", x[i], y[i]);
+      if (with_time) fmt::format_to(std::back_inserter(lines), ",{:.17g}", t[i]);
+      lines += '\n';
     }
     print(lines);
   }

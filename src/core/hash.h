@@ -39,6 +39,12 @@ enum class Axis : std::uint32_t {
   area_order,  // permutations of such a set
   line,      // random lines of a study's scenes; the pixel is (0, 0)
   field,  // the disks of a noise field: radii in part 0, candidates of centres from part 1 on; the pixel is (0, 0)
+  time,   // the time of sample `index`
+  scan,   // candidates of that time: the part counts them
+  area_time,  // the times of a set over a whole image; the pixel is (0, 0)
+  test_line,  // lines that test a set of points
+  test_box,   // boxes that do
+  test_disk,  // disks that do
 };
 
 // 128 bits that stand for (seed, trial, pixel). Two pixels of one draw with different coordinates modulo 2^32 never

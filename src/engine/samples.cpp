@@ -46,8 +46,15 @@ std::int64_t Samples::count(int x0, int x1, int y) const noexcept {
   return static_cast<std::int64_t>(row.first.back() - row.first.front());
 }
 
-void Samples::get(int x0, int x1, int y, RowSamples& out) const {
+bool Samples::has_time() const noexcept {
+  if (const auto* pattern = std::get_if<const Pattern*>(&source_)) return (*pattern)->has_time();
+  return std::get<const AreaPoints*>(source_)->has_time();
+}
+
+void Samples::get(int x0, int x1, int y, RowSamples& out, bool with_time) const {
+  assert(!with_time || has_time());
   out.first.assign(1, 0);
+  out.t.clear();
   out.pixels.clear();
   if (const auto* pattern = std::get_if<const Pattern*>(&source_)) {
     const auto n = static_cast<std::size_t>((*pattern)->n());
@@ -57,7 +64,8 @@ void Samples::get(int x0, int x1, int y, RowSamples& out) const {
     }
     out.x.resize(out.first.back());
     out.y.resize(out.first.back());
-    (*pattern)->fill(out.pixels, {out.x, out.y});
+    if (with_time) out.t.resize(out.first.back());
+    (*pattern)->fill(out.pixels, {out.x, out.y, out.t});
     return;
   }
   const auto row = std::get<const AreaPoints*>(source_)->points(x0, x1, y);
@@ -65,6 +73,7 @@ void Samples::get(int x0, int x1, int y, RowSamples& out) const {
              end = static_cast<std::ptrdiff_t>(row.first.back());
   out.x.assign(row.x.begin() + begin, row.x.begin() + end);
   out.y.assign(row.y.begin() + begin, row.y.begin() + end);
+  if (with_time) out.t.assign(row.t.begin() + begin, row.t.begin() + end);
   for (int x = x0; x < x1; ++x) {
     const auto i = static_cast<std::size_t>(x - x0);
     out.first.push_back(row.first[i + 1] - row.first.front());

@@ -26,6 +26,7 @@ Layout find_layout(std::string_view name, std::string_view place);
 struct RowSamples {
   std::vector<std::size_t> first;
   std::vector<double> x, y;   // from the sample's pixel's corner
+  std::vector<double> t;      // its time, in [0, 1), or empty where none is asked for
   std::vector<Pixel> pixels;  // of each sample, or of each pixel where all have as many
 };
 
@@ -41,8 +42,10 @@ class Samples {
   std::int64_t total(Grid grid, int apron) const noexcept;
   // Samples of the pixels x0 <= x < x1 of row y.
   std::int64_t count(int x0, int x1, int y) const noexcept;
-  // The samples themselves; what `out` held is replaced.
-  void get(int x0, int x1, int y, RowSamples& out) const;
+  // Whether samples have a time.
+  bool has_time() const noexcept;
+  // The samples themselves; what `out` held is replaced. `with_time` asks for t, too; precondition: has_time().
+  void get(int x0, int x1, int y, RowSamples& out, bool with_time = false) const;
 
  private:
   std::variant<const Pattern*, const AreaPoints*> source_;

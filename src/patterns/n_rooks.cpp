@@ -10,18 +10,11 @@
 namespace moire {
 namespace {
 
-// An integer of [0, bound), bound <= 2^26, from the 64 random bits (high, low): their product with bound, divided by
-// 2^64. No value is more than one part in 2^38 too likely.
-std::int32_t below(std::uint32_t high, std::uint32_t low, std::uint32_t bound) noexcept {
-  const std::uint64_t carry = (std::uint64_t{low} * bound) >> 32;
-  return static_cast<std::int32_t>((std::uint64_t{high} * bound + carry) >> 32);
-}
-
 // Fisher-Yates, inside out and in place: y becomes the permutation, x holds the draws it is made from.
 void permute(const Key& key, Axis order, int n, double* __restrict x, double* __restrict y) noexcept {
   for (int i = 0; i < n; ++i) {
     const Words w = hash(key, static_cast<std::uint32_t>(i), order);
-    x[i] = below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
+    x[i] = uniform_below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
   }
   for (int i = 0; i < n; ++i) {
     y[i] = i;

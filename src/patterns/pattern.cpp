@@ -21,6 +21,16 @@ constexpr const PatternInfo* kPatterns[] = {
 #include "patterns_plugins.inc"
 #undef MOIRE_ITEM
 };
+
+// The names of the patterns that can do something, for messages.
+template <class Able>
+std::string names_of(const Able& able) {
+  std::vector<std::string_view> names;
+  for (const PatternInfo* info : kPatterns) {
+    if (able(*info)) names.push_back(info->name);
+  }
+  return join(names);
+}
 }  // namespace
 
 std::span<const PatternInfo* const> patterns() { return kPatterns; }
@@ -49,14 +59,18 @@ void PatternChoice::require_count(std::int64_t n) const {
   if (below != n) refuse(fmt::format("nearest: {}, {}", below, above));
 }
 
+void PatternChoice::require_time() const {
+  if (has_time()) return;
+  throw Error(args_.place(),
+              fmt::format("pattern \"{}\" has points in 2 dimensions, without a time; these have one: {}", info_->name,
+                          names_of([](const PatternInfo& info) { return info.has_time; })));
+}
+
 std::int64_t PatternChoice::area_count(Grid area, std::int64_t n) const {
   if (info_->area_count == nullptr) {
-    std::vector<std::string_view> able;
-    for (const PatternInfo* info : patterns()) {
-      if (info->area_count != nullptr) able.push_back(info->name);
-    }
     throw Error(args_.place(),
-                fmt::format("pattern \"{}\" cannot fill an image as one set; these can: {}", info_->name, join(able)));
+                fmt::format("pattern \"{}\" cannot fill an image as one set; these can: {}", info_->name,
+                            names_of([](const PatternInfo& info) { return info.area_count != nullptr; })));
   }
   const double wanted = static_cast<double>(n) * area.width * area.height;
   const std::int64_t count =

@@ -18,9 +18,15 @@
 
 namespace moire {
 
-// Structure of arrays, pixel-major, n points per pixel. x, y in [0, 1) from the pixel's upper left corner.
+// Structure of arrays, pixel-major, n points per pixel. x, y in [0, 1) from the pixel's upper left corner; t in [0, 1),
+// the time while the shutter is open. t is empty where no time is wanted; x and y are the same bits with and without.
 struct Points {
   std::span<double> x, y;
+  std::span<double> t = {};
+  // Points begin .. begin + count - 1, with t where these have one.
+  Points part(std::size_t begin, std::size_t count) const noexcept {
+    return {x.subspan(begin, count), y.subspan(begin, count), t.empty() ? t : t.subspan(begin, count)};
+  }
 };
 
 // Which replicate: `seed` names the experiment, `trial` counts its independent repetitions.
@@ -40,6 +46,11 @@ concept PatternType = std::constructible_from<P, const Args&, int, Draw> &&
   noexcept;
 };
 
+// A pattern may have points in time, too: it says so with `static constexpr bool kHasTime = true`, and then fills t
+// wherever Points brings one. The others are never asked for it.
+template <class P>
+concept HasTime = P::kHasTime;
+
 // A pattern may have points outside any pixel (a bank-based one): `fill_set` writes the one set of this draw, which
 // `moire points` and the discrepancies use. Without it, that set is the one of pixel (0, 0).
 template <class P>
@@ -50,18 +61,20 @@ concept HasSet = requires(const P& p, Points out) {
 
 // A pattern may fill a whole image as one set, without regard to pixels: Mitchell's second way, and what shows a
 // pattern's grain. `area_count` is how many points it makes where n are asked for (the nearest count that it can have);
-// `fill_area` writes that many, x in [0, area.width) and y in [0, area.height) pixels, in any order. It may allocate.
+// `fill_area` writes that many, x in [0, area.width) and y in [0, area.height) pixels, t in [0, 1), in any order. It
+// may allocate.
 template <class P>
 concept FillsArea = requires(const Args& args, Grid area, std::int64_t n, Draw draw, Points out) {
   { P::area_count(args, area, n) } -> std::same_as<std::int64_t>;
   P::fill_area(args, area, draw, out);
 };
 
-// Most points that such a set may have: 2^26, some 2 GiB while they are made and sorted.
+// Most points that such a set may have: 2^26, some 2 GiB while they are made and sorted, 3 GiB with times.
 inline constexpr std::int64_t kMaxAreaPoints = std::int64_t{1} << 26;
 
 enum class Varies : std::uint8_t {
   never,     // the same points in every pixel and trial
+  in_time,   // the same x and y in every pixel and trial; t differs by seed, trial and pixel
   by_trial,  // differs by seed, trial and pixel
 };
 
@@ -81,6 +94,7 @@ struct PatternInfo {
   void (*fill_set)(const void*, Points) noexcept;
   std::int64_t (*area_count)(const Args&, Grid, std::int64_t);  // null: does not fill areas
   void (*fill_area)(const Args&, Grid, Draw, Points);           // null with area_count
+  bool has_time;                                                // whether points have a t
 };
 
 // Every pattern of the program, in the order of patterns/CMakeLists.txt.
@@ -96,9 +110,16 @@ class PatternChoice {
   const std::string& text() const { return text_; }
   const PatternInfo& info() const { return *info_; }
   const Args& args() const { return args_; }
-  bool varies() const { return info_->varies(args_) != Varies::never; }
+  // Whether the points differ by seed, trial and pixel: x and y alone, or `with_time` (x, y, t).
+  bool varies(bool with_time = false) const {
+    const Varies varies = info_->varies(args_);
+    return varies == Varies::by_trial || (with_time && varies == Varies::in_time);
+  }
+  bool has_time() const noexcept { return info_->has_time; }
   // Throws Error naming the nearest usable counts when the pattern cannot have n points.
   void require_count(std::int64_t n) const;
+  // Throws Error naming the patterns whose points have a time when this one's have none.
+  void require_time() const;
   // Points of the set that fills the area with about n points per pixel. Throws Error when the pattern cannot fill
   // areas, naming those that can, and for more than kMaxAreaPoints points.
   std::int64_t area_count(Grid area, std::int64_t n) const;
@@ -113,7 +134,8 @@ class Pattern {
  public:
   Pattern(const PatternChoice& choice, int n, Draw draw);  // throws Error as require_count does
   int n() const noexcept { return n_; }
-  // out.x and out.y hold run.size() * n() points, pixel-major.
+  bool has_time() const noexcept { return info_->has_time; }
+  // out.x and out.y hold run.size() * n() points, pixel-major; out.t as many, or none. Precondition for t: has_time().
   void fill(std::span<const Pixel> run, Points out) const noexcept { info_->fill(self_.get(), run, out); }
   // The one set of this draw, n() points.
   void fill_set(Points out) const noexcept { info_->fill_set(self_.get(), out); }
@@ -169,7 +191,8 @@ constexpr PatternInfo describe(const PatternText& t) {
         }
       },
       area_count_of<P>(),
-      fill_area_of<P>()};
+      fill_area_of<P>(),
+      HasTime<P>};
 }
 
 }  // namespace moire

@@ -8,17 +8,19 @@ namespace moire {
 namespace {
 
 struct Random {
+  static constexpr bool kHasTime = true;
   int n;
   std::uint64_t draw;
 
   Random(const Args&, int count, Draw d) : n(count), draw(draw_hash(d.seed, d.trial)) {}
 
   void fill(std::span<const Pixel> run, Points out) const noexcept {
-    double *x = out.x.data(), *y = out.y.data();
-    for (const Pixel& pixel : run) {
-      uniform_points(pixel_key(draw, pixel), Axis::xy, 0, n, x, y);
-      x += n;
-      y += n;
+    const auto count = static_cast<std::size_t>(n);
+    for (std::size_t p = 0; p < run.size(); ++p) {
+      const Points here = out.part(p * count, count);
+      const Key key = pixel_key(draw, run[p]);
+      uniform_points(key, Axis::xy, 0, n, here.x.data(), here.y.data());
+      uniform_times(key, Axis::time, here.t);
     }
   }
 
@@ -27,6 +29,7 @@ struct Random {
     const Key key = pixel_key(draw_hash(d.seed, d.trial), {});
     uniform_points(key, Axis::area, 0, static_cast<int>(out.x.size()), out.x.data(), out.y.data());
     stretch(area, out);
+    uniform_times(key, Axis::area_time, out.t);
   }
 };
 

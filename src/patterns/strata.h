@@ -8,7 +8,7 @@
 
 namespace moire {
 
-// `cells` equal strata, 1 <= cells <= 2^26. With c = ceil(log2 cells), a stratum holds 2^(50-c) places, the odd
+// `cells` equal strata, 1 <= cells <= 2^30. With c = ceil(log2 cells), a stratum holds 2^(50-c) places, the odd
 // multiples of 2^-(51-c) of its width. Their mean is exactly its middle.
 //
 // Why nothing crosses: cell + u has at most 51 bits, so it is exact, and it stays 2^-(51-c) away from both ends, a

@@ -1,7 +1,8 @@
-// Independent uniform points: the raw material of the random patterns.
+// Independent uniform points, times and integers: the raw material of the random patterns.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/hash.h"
 
@@ -17,6 +18,22 @@ inline void uniform_points(const Key& key, Axis axis, std::uint64_t first, int c
     x[i] = unit(w.a, w.b);
     y[i] = unit(w.c, w.d);
   }
+}
+
+// The times of points 0, 1, ...: one number of (key, axis) for each, a multiple of 2^-52 in [0, 1).
+inline void uniform_times(const Key& key, Axis axis, std::span<double> t) noexcept {
+  std::uint32_t i = 0;
+  for (double& time : t) {
+    const Words w = hash(key, i++, axis);
+    time = unit(w.a, w.b);
+  }
+}
+
+// An integer of [0, bound), bound <= 2^29, from the 64 random bits (high, low): their product with bound, divided by
+// 2^64. No value is more than one part in 2^35 too likely.
+inline std::int32_t uniform_below(std::uint32_t high, std::uint32_t low, std::uint32_t bound) noexcept {
+  const std::uint64_t carry = (std::uint64_t{low} * bound) >> 32;
+  return static_cast<std::int32_t>((std::uint64_t{high} * bound + carry) >> 32);
 }
 
 }  // namespace moire

@@ -1,10 +1,12 @@
-// Zaremba-Hammersley points: (i/N, psi_2(i)), the radical inverse with every second digit flipped, as in D. P.
-// Mitchell, "Ray tracing and irregularities of distribution", Third Eurographics Workshop on Rendering, 1992, after T.
-// T. Warnock, "Computational investigations of low-discrepancy point sets", in S. K. Zaremba (ed.), 1972.
+// Zaremba-Hammersley points: (i/N, psi_2(i), psi_3(i)), radical inverses with folded digits, in base 2 every second one
+// flipped, as in D. P. Mitchell, "Ray tracing and irregularities of distribution", Third Eurographics Workshop on
+// Rendering, 1992, after T. T. Warnock, "Computational investigations of low-discrepancy point sets", in S. K. Zaremba
+// (ed.), 1972.
 #include "patterns/area.h"
 #include "patterns/instance.h"
 #include "patterns/pattern.h"
 #include "patterns/radical_inverse.h"
+#include "patterns/radical_inverse3.h"
 
 namespace moire {
 namespace {
@@ -18,7 +20,7 @@ double psi2(std::uint32_t i) {
   return (3.0 * digits + 1.0) / 3.0 * 0x1p-32;
 }
 
-PlainSet zaremba_set(int n) {
+PlainSet zaremba_set(int n, bool with_time) {
   PlainSet set;
   set.x.reserve(static_cast<std::size_t>(n));
   set.y.reserve(static_cast<std::size_t>(n));
@@ -26,19 +28,23 @@ PlainSet zaremba_set(int n) {
     set.x.push_back(i / static_cast<double>(n));
     set.y.push_back(psi2(static_cast<std::uint32_t>(i)));
   }
+  set.t.resize(with_time ? static_cast<std::size_t>(n) : 0);
+  psi3(set.t);
+  set.folding = ternary_folding();
   return set;
 }
 
 struct Zaremba {
+  static constexpr bool kHasTime = true;
   Instances points;
 
-  Zaremba(const Args& args, int n, Draw draw) : points(args, draw, zaremba_set(n)) {}
+  Zaremba(const Args& args, int n, Draw draw) : points(args, draw, zaremba_set(n, true)) {}
   void fill(std::span<const Pixel> run, Points out) const noexcept { points.fill(run, out); }
 
   static constexpr auto area_count = any_area_count;
   static void fill_area(const Args& args, Grid area, Draw draw, Points out) {
     const Pixel whole{};
-    Instances(args, draw, zaremba_set(static_cast<int>(out.x.size()))).fill({&whole, 1}, out);
+    Instances(args, draw, zaremba_set(static_cast<int>(out.x.size()), !out.t.empty())).fill({&whole, 1}, out);
     stretch(area, out);
   }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,8 +31,8 @@ std::vector<PatternChoice> area_patterns() {
 
 PointSet fill(const PatternChoice& choice, Grid area, std::int64_t spp, Draw draw = {}) {
   const auto count = static_cast<std::size_t>(choice.area_count(area, spp));
-  PointSet set{std::vector<double>(count, -1.0), std::vector<double>(count, -1.0)};
-  choice.info().fill_area(choice.args(), area, draw, {set.x, set.y});
+  PointSet set = room_for(count, choice.has_time());
+  choice.info().fill_area(choice.args(), area, draw, points_of(set));
   return set;
 }
 
@@ -70,32 +71,43 @@ TEST_SUITE("unit") {
           for (std::size_t i = 0; i < set.x.size(); ++i) {
             REQUIRE((set.x[i] >= 0 && set.x[i] < area.width && set.y[i] >= 0 && set.y[i] < area.height));
           }
+          for (const double t : set.t) REQUIRE((t >= 0 && t < 1));
           CHECK(set == fill(choice, area, spp, {3, 1}));
-          if (choice.varies()) CHECK(set != fill(choice, area, spp, {3, 2}));
-          if (choice.varies()) CHECK(set != fill(choice, area, spp, {4, 1}));
-          if (!choice.varies()) CHECK(set == fill(choice, area, spp, {4, 2}));
+          PointSet still = room_for(set.x.size(), false);
+          choice.info().fill_area(choice.args(), area, {3, 1}, points_of(still));
+          CHECK(still.x == set.x);
+          CHECK(still.y == set.y);
+          for (const Draw draw : {Draw{3, 2}, Draw{4, 1}}) {
+            const PointSet other = fill(choice, area, spp, draw);
+            CHECK((set.x != other.x) == choice.varies());
+            CHECK((set.y != other.y) == choice.varies());
+            CHECK((set.t != other.t) == (choice.varies(true) && choice.has_time()));
+          }
         }
       }
     }
   }
 
   TEST_CASE("points of areas are uniform over trials, pixel by pixel and within pixels") {
-    for (const char* text : {"random", "jittered", "n-rooks", "dart-throwing:k=100", "hammersley:instance=shift",
-                             "zaremba:instance=shift"}) {
+    for (const char* text :
+         {"random", "jittered", "jittered-random-time", "n-rooks", "dart-throwing:k=100", "hammersley:instance=shift",
+          "hammersley:instance=scramble", "zaremba:instance=shift", "zaremba:instance=scramble"}) {
       CAPTURE(text);
       const Grid area{6, 4};
-      std::vector<std::uint32_t> pixels(24), places(16);
+      std::vector<std::uint32_t> pixels(24), places(16), times(24);
       for (std::uint32_t trial = 0; trial < 400; ++trial) {
         const PointSet set = fill(chosen(text), area, 2, {1, trial});
         for (std::size_t i = 0; i < set.x.size(); ++i) {
           ++pixels[static_cast<std::size_t>(set.x[i]) + 6 * static_cast<std::size_t>(set.y[i])];
           const double u = set.x[i] - std::floor(set.x[i]), v = set.y[i] - std::floor(set.y[i]);
           ++places[static_cast<std::size_t>(4 * u) + 4 * static_cast<std::size_t>(4 * v)];
+          if (!set.t.empty()) ++times[static_cast<std::size_t>(24 * set.t[i])];
         }
       }
       // Points of one set keep apart, so counts vary less than independent ones: too even is no fault.
       CHECK(z_of_counts(pixels) < 5);
       CHECK(z_of_counts(places) < 5);
+      if (chosen(text).has_time()) CHECK(z_of_counts(times) < 5);
     }
   }
 
@@ -105,9 +117,10 @@ TEST_SUITE("unit") {
       const Grid grid{9, 5};
       const int apron = 2;
       const Grid area{13, 9};
-      const AreaPoints sorted(choice, grid, apron, 3, {2, 7});
+      const AreaPoints sorted(choice, grid, apron, 3, {2, 7}, choice.has_time());
       const PointSet set = fill(choice, area, 3, {2, 7});
       REQUIRE(sorted.count() == static_cast<std::int64_t>(set.x.size()));
+      CHECK(sorted.has_time() == choice.has_time());
       CHECK(sorted.density() == static_cast<double>(set.x.size()) / (13 * 9));
       CHECK(sorted.fits(grid, apron));
       CHECK_FALSE(sorted.fits(grid, 1));
@@ -116,11 +129,14 @@ TEST_SUITE("unit") {
         const auto row = sorted.points(-apron, grid.width + apron, y);
         for (int x = -apron; x < grid.width + apron; ++x) {
           const auto p = static_cast<std::size_t>(x + apron);
-          std::vector<std::pair<double, double>> here, want;
-          for (std::size_t i = row.first[p]; i < row.first[p + 1]; ++i) here.emplace_back(row.x[i], row.y[i]);
+          std::vector<std::tuple<double, double, double>> here, want;
+          const auto time = [](const auto& t, std::size_t i) { return t.empty() ? -1 : t[i]; };
+          for (std::size_t i = row.first[p]; i < row.first[p + 1]; ++i) {
+            here.emplace_back(row.x[i], row.y[i], time(row.t, i));
+          }
           for (std::size_t i = 0; i < set.x.size(); ++i) {
             if (std::floor(set.x[i]) == x + apron && std::floor(set.y[i]) == y + apron) {
-              want.emplace_back(set.x[i] - (x + apron), set.y[i] - (y + apron));
+              want.emplace_back(set.x[i] - (x + apron), set.y[i] - (y + apron), time(set.t, i));
             }
           }
           CHECK(here == want);

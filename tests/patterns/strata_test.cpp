@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "patterns/pattern.h"
+#include "patterns/radical_inverse3.h"
 #include "patterns/variants.h"
 
 using namespace moire;
@@ -51,7 +52,8 @@ TEST_SUITE("unit") {
   TEST_CASE("the extreme offsets of a stratum stay strictly inside it, for every number of strata") {
     std::vector<int> numbers;
     for (int cells = 1; cells <= 4200; ++cells) numbers.push_back(cells);
-    for (const int cells : {65535, 65536, 65537, 9'999'991, (1 << 24) - 1, 1 << 24}) numbers.push_back(cells);
+    for (const int cells : {65535, 65536, 65537, 9'999'991, (1 << 24) - 1, 1 << 24, kTernaryCells, 1 << 30})
+      numbers.push_back(cells);
     for (const int cells : numbers) {
       const Strata strata(cells);
       const double low = strata.offset(0.0), high = strata.offset(1 - 0x1p-52);
@@ -75,7 +77,7 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("jittered and regular have point i in cell (i mod m, i / m)") {
-    for (const std::string text : {"jittered", "jittered:amount=0", "jittered:amount=0.3", "regular"})
+    for (const std::string text : {"jittered", "jittered:amount=0", "jittered:amount=0.3", "regular", "scan-time"})
       for (const int m : {1, 2, 3, 5, 7, 16, 49, 100}) {
         CAPTURE(text);
         CAPTURE(m);
@@ -180,7 +182,9 @@ TEST_SUITE("unit") {
     for (const std::string text : {"regular", "hammersley", "zaremba"}) {
       const PointSet plain = set_of(text, 49), shifted = set_of(text + ":instance=shift", 49);
       for (std::size_t i = 0; i < 49; ++i)
-        for (const auto& [from, to] : {std::pair{&plain.x, &shifted.x}, std::pair{&plain.y, &shifted.y}}) {
+        for (const auto& [from, to] :
+             {std::pair{&plain.x, &shifted.x}, std::pair{&plain.y, &shifted.y}, std::pair{&plain.t, &shifted.t}}) {
+          if (from->empty()) continue;
           const double step = ((*to)[i] - (*from)[i]) - ((*to)[0] - (*from)[0]);
           CHECK(std::abs(step - std::round(step)) < 1e-15);  // four numbers below 1, each rounded by 2^-54 at most
         }

@@ -39,23 +39,30 @@ inline std::vector<std::string> variants() {
 
 struct PointSet {
   std::vector<double> x, y;
+  std::vector<double> t = {};  // empty: no times
   friend bool operator==(const PointSet&, const PointSet&) = default;
 };
 
-// The points of a run of pixels, n per pixel.
+// Room for `count` points, filled with what no pattern makes.
+inline PointSet room_for(std::size_t count, bool with_time) {
+  return {std::vector<double>(count, -1.0), std::vector<double>(count, -1.0),
+          std::vector<double>(with_time ? count : 0, -1.0)};
+}
+
+inline Points points_of(PointSet& set) { return {set.x, set.y, set.t}; }
+
+// The points of a run of pixels, n per pixel, with their times where they have any.
 inline PointSet points_in(const Pattern& pattern, const std::vector<Pixel>& run) {
-  const std::size_t count = run.size() * static_cast<std::size_t>(pattern.n());
-  PointSet set{std::vector<double>(count, -1.0), std::vector<double>(count, -1.0)};
-  pattern.fill(run, {set.x, set.y});
+  PointSet set = room_for(run.size() * static_cast<std::size_t>(pattern.n()), pattern.has_time());
+  pattern.fill(run, points_of(set));
   return set;
 }
 
 // The one set of a draw.
 inline PointSet set_of(const std::string& text, int n, Draw draw = {}) {
   const Pattern pattern(chosen(text), n, draw);
-  PointSet set{std::vector<double>(static_cast<std::size_t>(n), -1.0),
-               std::vector<double>(static_cast<std::size_t>(n), -1.0)};
-  pattern.fill_set({set.x, set.y});
+  PointSet set = room_for(static_cast<std::size_t>(n), pattern.has_time());
+  pattern.fill_set(points_of(set));
   return set;
 }
 
