@@ -48,16 +48,26 @@ struct LocalCircle {
   }
 };
 
-// Seen from the upper left corner of pixel `origin` (shift 0) or from its centre (shift 0.5).
-LocalCircle seen_from(const GivenCircle& circle, Pixel origin, double shift) noexcept;
+// Seen from the upper left corner of pixel `origin` (shift 0) or from its centre (shift 0.5), the circle moved by
+// `moved`.
+LocalCircle seen_from(const GivenCircle& circle, Pixel origin, double shift, Vec2 moved = {}) noexcept;
 
 // Sets inside[i] = 1 where point i, relative to the corner of pixel `origin`, is in the disk, and leaves the others as
 // they are. Precondition: |x[i]| <= reach.x and |y[i]| <= reach.y.
 void mark_inside(const GivenCircle& circle, Pixel origin, std::span<const double> x, std::span<const double> y,
                  Vec2 reach, std::span<std::uint8_t> inside) noexcept;
 
+// The same for the disk moved by t[i] * motion. Precondition: |x[i] - t[i] * motion.x| and |t[i] * motion.x| <= reach.x
+// up to rounding, and so for y.
+void mark_inside_at(const GivenCircle& circle, Vec2 motion, Pixel origin, std::span<const double> x,
+                    std::span<const double> y, std::span<const double> t, Vec2 reach,
+                    std::span<std::uint8_t> inside) noexcept;
+
 // What the closed rectangle r, relative to the same point as `at`, holds of the disk: none and all are certain.
 Cover cover(const LocalCircle& at, Rect r) noexcept;
+
+// The same at all times of a motion; r relative to the corner (shift 0) or centre (0.5) of pixel `origin`.
+Cover cover(const GivenCircle& circle, Vec2 motion, Pixel origin, double shift, Rect r) noexcept;
 
 // The circle as a boundary holds it; `at` is seen from a pixel's centre.
 Circle boundary_circle(const GivenCircle& circle, const LocalCircle& at) noexcept;

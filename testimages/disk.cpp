@@ -10,11 +10,11 @@ namespace moire {
 namespace {
 
 constexpr Param kParams[] = {numbers("center", true, "", "[x, y] in pixels"),
-                             numbers("radius", true, "", "in pixels, above 0")};
+                             numbers("radius", true, "", "in pixels, above 0"), motion_param()};
 
 class Disk {
  public:
-  Disk(const Args& args, Grid) : circle_{point(args, "center")} {
+  Disk(const Args& args, Grid) : circle_{point(args, "center")}, motion_(moire::motion(args)) {
     const Value& v = *args.find("radius");
     if (v.rank != 0 || v.numbers.size() != 1) throw Error(v.place, "\"radius\" must be one number, in pixels");
     circle_.radius = v.numbers[0];
@@ -30,18 +30,35 @@ class Disk {
     }
   }
 
-  Cover cover(Pixel origin, Rect r) const noexcept { return moire::cover(seen_from(circle_, origin, 0), r); }
+  void contains_at(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                   std::span<const double> t, std::span<std::uint8_t> inside) const noexcept {
+    const std::size_t n = x.size() / run.size();
+    const Vec2 reach{1 + std::fabs(motion_.x), 1 + std::fabs(motion_.y)};
+    std::fill(inside.begin(), inside.end(), std::uint8_t{0});
+    for (std::size_t p = 0; p < run.size(); ++p) {
+      mark_inside_at(circle_, motion_, run[p], x.subspan(p * n, n), y.subspan(p * n, n), t.subspan(p * n, n), reach,
+                     inside.subspan(p * n, n));
+    }
+  }
+
+  Cover cover(Pixel origin, Rect r) const noexcept { return moire::cover(circle_, motion_, origin, 0, r); }
 
   void boundary(Pixel origin, double, Boundary& out) const {
     out.circles.push_back(boundary_circle(circle_, seen_from(circle_, origin, 0.5)));
   }
 
   StoredDoubles stored() const {
-    return {{"center", {circle_.center.x, circle_.center.y}}, {"radius", {circle_.radius}}};
+    StoredDoubles doubles{{"center", {circle_.center.x, circle_.center.y}}, {"radius", {circle_.radius}}};
+    if (motion_ != Vec2{}) doubles.push_back({"motion", {motion_.x, motion_.y}});
+    return doubles;
   }
+
+  Vec2 motion() const noexcept { return motion_; }
+  Vec2 sweep() const noexcept { return motion_; }
 
  private:
   GivenCircle circle_;
+  Vec2 motion_;
 };
 
 }  // namespace

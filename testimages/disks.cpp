@@ -17,7 +17,8 @@ namespace moire {
 namespace {
 
 constexpr Param kParams[] = {
-    numbers("disks", true, "", "a list of at least one [x, y, radius], in pixels; disks may touch but not overlap")};
+    numbers("disks", true, "", "a list of at least one [x, y, radius], in pixels; disks may touch but not overlap"),
+    motion_param()};
 
 std::string name_of(std::size_t i) { return "disks[" + std::to_string(i) + "]"; }
 
@@ -58,11 +59,15 @@ void refuse_overlap(const Value& v, const std::vector<GivenCircle>& disks, const
 
 class Disks {
  public:
-  Disks(const Args& args, Grid) : Disks(*args.find("disks")) {}
+  Disks(const Args& args, Grid) : Disks(*args.find("disks"), moire::motion(args)) {}
 
   void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
                 std::span<std::uint8_t> inside) const noexcept {
     disks_.contains(run, x, y, inside);
+  }
+  void contains_at(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                   std::span<const double> t, std::span<std::uint8_t> inside) const noexcept {
+    disks_.contains_at(run, x, y, t, inside);
   }
   Cover cover(Pixel origin, Rect r) const noexcept { return disks_.cover(origin, r); }
   void boundary(Pixel origin, double half_width, Boundary& out) const { disks_.boundary(origin, half_width, out); }
@@ -75,12 +80,17 @@ class Disks {
       rows[3 * e.number + 1] = e.circle.center.y;
       rows[3 * e.number + 2] = e.circle.radius;
     }
-    return {{"disks", rows}};
+    StoredDoubles doubles{{"disks", rows}};
+    if (const Vec2 m = motion(); m != Vec2{}) doubles.push_back({"motion", {m.x, m.y}});
+    return doubles;
   }
 
+  Vec2 motion() const noexcept { return disks_.motion(); }
+  Vec2 sweep() const noexcept { return disks_.motion(); }
+
  private:
-  explicit Disks(const Value& v) : Disks(v, read(v)) {}
-  Disks(const Value& v, const std::vector<GivenCircle>& disks) : disks_(disks) {
+  Disks(const Value& v, Vec2 motion) : Disks(v, read(v), motion) {}
+  Disks(const Value& v, const std::vector<GivenCircle>& disks, Vec2 motion) : disks_(disks, motion) {
     refuse_overlap(v, disks, disks_.index());
   }
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr Param kParams[] = {
     numbers("through", true, "", "a point of the edge, [x, y] in pixels"),
-    numbers("normal", true, "", "towards the inside: degrees from +x towards +y, or a vector [nx, ny]")};
+    numbers("normal", true, "", "towards the inside: degrees from +x towards +y, or a vector [nx, ny]"),
+    motion_param()};
 
 // The unit vector of a direction in degrees, each component right to an ulp: reduced exactly to an octant, then sine
 // and cosine in double-double. Multiples of 90 give 0 and 1 exactly, odd multiples of 45 equal magnitudes.
@@ -35,7 +36,7 @@ Vec2 unit_vector(double degrees) {
 
 class Edge {
  public:
-  Edge(const Args& args, Grid) : through_(point(args, "through")) {
+  Edge(const Args& args, Grid) : through_(point(args, "through")), motion_(moire::motion(args)) {
     const Value& v = *args.find("normal");
     if (v.rank == 0 && v.numbers.size() == 1) {
       normal_ = unit_vector(v.numbers[0]);
@@ -50,6 +51,8 @@ class Edge {
     int exponent = 0;
     std::frexp(size, &exponent);
     n_ = {std::ldexp(normal_.x, -exponent), std::ldexp(normal_.y, -exponent)};
+    travel_ = two_prod(n_.x, motion_.x) + two_prod(n_.y, motion_.y);
+    travel_error_ = 0x1p-100 * std::fabs(travel_.hi);
   }
 
   void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
@@ -73,14 +76,32 @@ class Edge {
     }
   }
 
+  void contains_at(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                   std::span<const double> t, std::span<std::uint8_t> inside) const noexcept {
+    const std::size_t n = x.size() / run.size();
+    const double travel = travel_.value();
+    for (std::size_t p = 0; p < run.size(); ++p) {
+      const auto [c, far] = offset(run[p], 0);
+      // As above, and 3 u |travel| for its rounding, its product with t and one sum more.
+      const double doubt = 8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c) + std::fabs(travel)) + far;
+      for (std::size_t i = p * n; i < (p + 1) * n; ++i) {
+        const double s = n_.x * x[i] + n_.y * y[i] - c - t[i] * travel;
+        inside[i] = std::fabs(s) > doubt ? s > 0 : exact_sign(run[p], {x[i], y[i]}, t[i]) >= 0;
+      }
+    }
+  }
+
+  // At all times: those between the first and the last are between them in the offset, too.
   Cover cover(Pixel origin, Rect r) const noexcept {
     const auto [c, far] = offset(origin, 0);
-    const double low = n_.x * (n_.x > 0 ? r.lo.x : r.hi.x) + n_.y * (n_.y > 0 ? r.lo.y : r.hi.y) - c;
-    const double high = n_.x * (n_.x > 0 ? r.hi.x : r.lo.x) + n_.y * (n_.y > 0 ? r.hi.y : r.lo.y) - c;
-    const double doubt = 8 * kUnit *
-                             (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
-                              std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c)) +
-                         far;
+    const double travel = travel_.value(), first = std::min(c, c + travel), last = std::max(c, c + travel);
+    const double low = n_.x * (n_.x > 0 ? r.lo.x : r.hi.x) + n_.y * (n_.y > 0 ? r.lo.y : r.hi.y) - last;
+    const double high = n_.x * (n_.x > 0 ? r.hi.x : r.lo.x) + n_.y * (n_.y > 0 ? r.hi.y : r.lo.y) - first;
+    const double doubt =
+        8 * kUnit *
+            (std::fabs(n_.x) * std::max(std::fabs(r.lo.x), std::fabs(r.hi.x)) +
+             std::fabs(n_.y) * std::max(std::fabs(r.lo.y), std::fabs(r.hi.y)) + std::fabs(c) + std::fabs(travel)) +
+        far;
     if (low > doubt) return Cover::all;
     if (high < -doubt) return Cover::none;
     return Cover::partial;
@@ -88,7 +109,10 @@ class Edge {
 
   void boundary(Pixel origin, double half_width, Boundary& out) const {
     const Offset c = exact_offset(origin, 0.5);
-    SharpClipper clipper(half_width);
+    const Vec2 swept = sweep();
+    // Wide enough that the window's sides, moved along, stay outside.
+    const double reach = std::max(std::fabs(swept.x), std::fabs(swept.y));
+    SharpClipper clipper(reach > 0 ? (half_width + reach) * (1 + 0x1p-40) : half_width);
     SharpPolygon inside;
     clipper.set_line(SharpClipper::kWindow, {n_.x, n_.y, -c.value, c.error});
     clipper.split(clipper.window(), SharpClipper::kWindow, &inside, nullptr);
@@ -96,7 +120,18 @@ class Edge {
     out.area_error += clipper.area_error();
   }
 
-  StoredDoubles stored() const { return {{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}}; }
+  StoredDoubles stored() const {
+    StoredDoubles doubles{{"through", {through_.x, through_.y}}, {"normal", {normal_.x, normal_.y}}};
+    if (motion_ != Vec2{}) doubles.push_back({"motion", {motion_.x, motion_.y}});
+    return doubles;
+  }
+
+  Vec2 motion() const noexcept { return motion_; }
+  // Only what goes across the edge counts: a motion along the axis that is nearer to the normal.
+  Vec2 sweep() const noexcept {
+    if (std::fabs(n_.x) >= std::fabs(n_.y)) return {(travel_ / Dd(n_.x)).value(), 0};
+    return {0, (travel_ / Dd(n_.y)).value()};
+  }
 
  private:
   // n . (through - origin - (shift, shift)), and what double-double may have lost: it has 100 bits of the products,
@@ -108,7 +143,7 @@ class Edge {
   Offset exact_offset(Pixel origin, double shift) const noexcept {
     const Dd x = Dd(through_.x) - dd_from_integer(origin.x) - Dd(shift);
     const Dd y = Dd(through_.y) - dd_from_integer(origin.y) - Dd(shift);
-    return {Dd(n_.x) * x + Dd(n_.y) * y, 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi))};
+    return {Dd(n_.x) * x + Dd(n_.y) * y, 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi)) + travel_error_};
   }
   // The same, the value rounded.
   std::pair<double, double> offset(Pixel origin, double shift) const noexcept {
@@ -116,17 +151,24 @@ class Edge {
     return {exact.value.value(), exact.error};
   }
 
-  // The sign of n . (origin + p - through), exactly.
-  int exact_sign(Pixel origin, Vec2 p) const noexcept {
+  // The sign of n . (origin + p - through - t motion), exactly.
+  int exact_sign(Pixel origin, Vec2 p, double t = 0) const noexcept {
     Expansion sum;
     const Vec2 n{n_.x * 0x1p500, n_.y * 0x1p500};  // away from underflow
     const Dd ox = dd_from_integer(origin.x), oy = dd_from_integer(origin.y);
     for (const double term : {p.x, ox.hi, ox.lo, -through_.x}) sum.add_product(n.x, term);
     for (const double term : {p.y, oy.hi, oy.lo, -through_.y}) sum.add_product(n.y, term);
+    if (t != 0) {
+      const Dd x = two_prod(t, motion_.x), y = two_prod(t, motion_.y);
+      for (const double term : {x.hi, x.lo}) sum.add_product(-n.x, term);
+      for (const double term : {y.hi, y.lo}) sum.add_product(-n.y, term);
+    }
     return sum.sign();
   }
 
-  Vec2 through_, normal_, n_;
+  Vec2 through_, normal_, n_, motion_;
+  Dd travel_;  // n . motion, and its error
+  double travel_error_ = 0;
 };
 
 }  // namespace

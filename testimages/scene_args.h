@@ -30,4 +30,29 @@ inline Vec2 point(const Args& args, std::string_view name) {
   return {v.numbers[0], v.numbers[1]};
 }
 
+// Largest component of a motion, in pixels: as large as images may be. Smallest one but 0: products of a time and a
+// component, and their squares, stay far from the smallest normal number.
+inline constexpr double kMaxMotion = 0x1p20, kMinMotion = 1e-30;
+
+// The displacement while the shutter is open; (0, 0) where none is given.
+inline Vec2 motion(const Args& args) {
+  const Value* v = args.find("motion");
+  if (v == nullptr) return {};
+  if (v->rank != 1 || v->numbers.size() != 2) {
+    throw Error(v->place, "\"motion\" must be a displacement, [dx, dy] in pixels");
+  }
+  for (const double d : v->numbers) {
+    if (!(std::fabs(d) <= kMaxMotion) || (d != 0 && std::fabs(d) < kMinMotion)) {
+      throw Error(v->place, "\"motion\" is " + shortest(d) + "; each component must be 0 or " + shortest(kMinMotion) +
+                                " to " + shortest(kMaxMotion) + " pixels in magnitude");
+    }
+  }
+  return {v->numbers[0] + 0.0, v->numbers[1] + 0.0};  // no negative zeros
+}
+
+// Its line in the table of parameters, for those who take one.
+constexpr Param motion_param() {
+  return numbers("motion", false, "still", "displacement while the shutter is open, [dx, dy] in pixels");
+}
+
 }  // namespace moire

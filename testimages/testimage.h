@@ -53,6 +53,25 @@ concept HasHorizon = requires(const S& s, Pixel origin, Rect r) {
   noexcept->std::same_as<bool>;
 };
 
+// A scene may move while the shutter is open: at time t, from 0 to 1, it is the scene of time 0 moved by t motion().
+// Then contains() and stored() are about time 0; cover() is about all times: all and none are promises for every t; and
+// boundary() gives a set that, moved by t sweep(), equals the moving scene inside the window at every t.
+template <class S>
+concept Moves = requires(const S& s, std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                         std::span<const double> t, std::span<std::uint8_t> inside) {
+  // Pixels; (0, 0): this scene stands still, and answers as one without motion does, bit for bit.
+  { s.motion() }
+  noexcept->std::same_as<Vec2>;
+  // A displacement that does the same to the scene, up to an ulp of each component: an edge moved along itself
+  // stands still.
+  { s.sweep() }
+  noexcept->std::same_as<Vec2>;
+  // contains() at a time of its own for each point, 0 <= t <= 1, exact for the doubles as they are. Where t is not
+  // 0 it must be at least 2^-100.
+  { s.contains_at(run, x, y, t, inside) }
+  noexcept;
+};
+
 // The area of a scene inside a window, square pixels, and a guaranteed bound on its error.
 struct BoxIntegral {
   double value = 0, bound = 0;
@@ -77,6 +96,11 @@ struct TestImageInfo {
   StoredDoubles (*stored)(const void*);
   bool (*meets_horizon)(const void*, Pixel, Rect) noexcept;                // null: has none
   std::optional<BoxIntegral> (*box_integral)(const void*, Pixel, double);  // null: has none
+  // Null: never moves.
+  Vec2 (*motion)(const void*) noexcept;
+  Vec2 (*sweep)(const void*) noexcept;
+  void (*contains_at)(const void*, std::span<const Pixel>, std::span<const double>, std::span<const double>,
+                      std::span<const double>, std::span<std::uint8_t>) noexcept;
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -113,6 +137,15 @@ class TestImage {
     if (info_->box_integral == nullptr) return std::nullopt;
     return info_->box_integral(self_.get(), origin, half_width);
   }
+  // See Moves; (0, 0) for scenes that cannot move.
+  Vec2 motion() const noexcept { return info_->motion == nullptr ? Vec2{} : info_->motion(self_.get()); }
+  Vec2 sweep() const noexcept { return info_->sweep == nullptr ? Vec2{} : info_->sweep(self_.get()); }
+  bool moves() const noexcept { return motion() != Vec2{}; }
+  // Precondition: moves().
+  void contains_at(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+                   std::span<const double> t, std::span<std::uint8_t> inside) const noexcept {
+    info_->contains_at(self_.get(), run, x, y, t, inside);
+  }
 
  private:
   const TestImageInfo* info_;
@@ -144,6 +177,37 @@ constexpr auto box_integral_of() -> std::optional<BoxIntegral> (*)(const void*, 
   }
 }
 
+template <class S>
+constexpr auto motion_of() -> Vec2 (*)(const void*) noexcept {
+  if constexpr (Moves<S>) {
+    return [](const void* p) noexcept { return static_cast<const S*>(p)->motion(); };
+  } else {
+    return nullptr;
+  }
+}
+
+template <class S>
+constexpr auto sweep_of() -> Vec2 (*)(const void*) noexcept {
+  if constexpr (Moves<S>) {
+    return [](const void* p) noexcept { return static_cast<const S*>(p)->sweep(); };
+  } else {
+    return nullptr;
+  }
+}
+
+template <class S>
+constexpr auto contains_at_of()
+    -> void (*)(const void*, std::span<const Pixel>, std::span<const double>, std::span<const double>,
+                std::span<const double>, std::span<std::uint8_t>) noexcept {
+  if constexpr (Moves<S>) {
+    return [](const void* p, std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
+              std::span<const double> t,
+              std::span<std::uint8_t> inside) noexcept { static_cast<const S*>(p)->contains_at(run, x, y, t, inside); };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
   return {t.name,
@@ -157,7 +221,10 @@ constexpr TestImageInfo describe(const TestImageText& t) {
           [](const void* p, Pixel o, double h, Boundary& out) { static_cast<const S*>(p)->boundary(o, h, out); },
           [](const void* p) { return static_cast<const S*>(p)->stored(); },
           horizon_of<S>(),
-          box_integral_of<S>()};
+          box_integral_of<S>(),
+          motion_of<S>(),
+          sweep_of<S>(),
+          contains_at_of<S>()};
 }
 
 }  // namespace moire

@@ -3,20 +3,37 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/rounding.h"
 #include "core/sum.h"
 #include "engine/boundary_integral.h"
+#include "engine/swept_integral.h"
 
 namespace moire {
 namespace {
+
+// Throws Error for kernels that a moving scene cannot have.
+void require_sweepable(const Filter& filter) {
+  if (filter.kernel().pieces() <= SweptIntegral::kMaxPieces) return;
+  throw Error("filter \"" + filter.text() + "\"", "a kernel of " + std::to_string(filter.kernel().pieces()) +
+                                                      " pieces; exact values of a moving scene take at most " +
+                                                      std::to_string(SweptIntegral::kMaxPieces));
+}
 
 // The scene's boundary in one window, integrated. Buffers are kept from pixel to pixel.
 class PixelIntegrator {
  public:
   PixelIntegrator(const TestImage& scene, const Filter& filter)
-      : scene_(scene), kernel_(filter.kernel()), integral_(filter.kernel()) {}
+      : scene_(scene), kernel_(filter.kernel()), integral_(filter.kernel()) {
+    if (scene.sweep() == Vec2{}) return;
+    require_sweepable(filter);
+    swept_.emplace(kernel_, scene.sweep());
+    motion_error_ = swept_->motion_error();
+    if (!swept_->moves()) swept_.reset();
+  }
 
   Exact operator()(Pixel pixel) {
     if (kernel_.degree() == 0 && kernel_.pieces() == 1) {
@@ -24,16 +41,22 @@ class PixelIntegrator {
       if (box) return weighed(*box);
     }
     boundary_.clear();
-    integral_.reset();
     scene_.boundary(pixel, kernel_.radius(), boundary_);
-    for (const Segment& s : boundary_.segments) integral_.add(s);
-    for (const Circle& c : boundary_.circles) integral_.add(c);
     // Where the described set differs from the scene, the integral differs by at most max |k k| times that area.
     const double weight_max = kernel_.k_max() * kernel_.k_max();
-    return {integral_.value() + 0.0, integral_.bound() + boundary_.area_error * weight_max};
+    const double besides = boundary_.area_error * weight_max + motion_error_;
+    return swept_ ? integrated(*swept_, besides) : integrated(integral_, besides);
   }
 
  private:
+  template <class Integral>
+  Exact integrated(Integral& integral, double besides) const {
+    integral.reset();
+    for (const Segment& s : boundary_.segments) integral.add(s);
+    for (const Circle& c : boundary_.circles) integral.add(c);
+    return {integral.value() + 0.0, integral.bound() + besides};
+  }
+
   // A box filter's value from the integral over its window: k(x) k(y) is constant there.
   Exact weighed(const BoxIntegral& box) const {
     const double k = kernel_.k(0), weight = k * k;
@@ -45,6 +68,8 @@ class PixelIntegrator {
   const TestImage& scene_;
   const Kernel& kernel_;
   BoundaryIntegral integral_;
+  std::optional<SweptIntegral> swept_;  // of a scene that moves by more than nothing
+  double motion_error_ = 0;
   Boundary boundary_;
 };
 

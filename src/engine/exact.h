@@ -9,12 +9,14 @@
 
 namespace moire {
 
-// |value - truth| <= bound, truth = integral of scene times normalised kernel for the stored doubles.
+// |value - truth| <= bound, truth = integral of scene times normalised kernel for the stored doubles; of a moving
+// scene, its mean over the time that the shutter is open.
 struct Exact {
   double value = 0, bound = 0;
 };
 
 // The exact value of one pixel, also outside the image. Pixels that are not active are exactly 0 or 1 with bound 0.
+// Throws Error for a moving scene under a kernel of too many pieces (SweptIntegral::kMaxPieces); so does exact().
 Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel);
 
 // The exact values of the active pixels, row-major as for_each_active counts them.

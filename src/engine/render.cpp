@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <string>
@@ -118,15 +119,20 @@ class Renderer {
   void sample(int y, CellRow& row) const {
     const int together = std::max(1, static_cast<int>(kBatch / std::max(1.0, samples_.density())));
     RowSamples samples;
+    const bool moves = scene_.moves();
     std::vector<std::uint8_t> inside, needed(side_ * side_);
     CellSums sum(kernel_, reach_);
     row.sums.resize(row.own.size() * side_ * side_);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       for (int x = row.cells[i].x0; x < row.cells[i].x1; x += together) {
         const int end = std::min(row.cells[i].x1, x + together);
-        samples_.get(x, end, y, samples);
+        samples_.get(x, end, y, samples, moves);
         inside.resize(samples.x.size());
-        if (!samples.x.empty()) scene_.contains(samples.pixels, samples.x, samples.y, inside);
+        if (!samples.x.empty() && moves) {
+          scene_.contains_at(samples.pixels, samples.x, samples.y, samples.t, inside);
+        } else if (!samples.x.empty()) {
+          scene_.contains(samples.pixels, samples.x, samples.y, inside);
+        }
         for (int cell = x; cell < end; ++cell) {
           const auto c = static_cast<std::size_t>(cell - x);
           const std::size_t at = row.first[i] + static_cast<std::size_t>(cell - row.cells[i].x0);
@@ -185,10 +191,15 @@ class Renderer {
     return kept;
   }
 
+  // In the middle of the time, too.
   double inside_center(Pixel pixel) const {
     const double center = 0.5;
     std::uint8_t inside = 0;
-    scene_.contains({&pixel, 1}, {&center, 1}, {&center, 1}, {&inside, 1});
+    if (scene_.moves()) {
+      scene_.contains_at({&pixel, 1}, {&center, 1}, {&center, 1}, {&center, 1}, {&inside, 1});
+    } else {
+      scene_.contains({&pixel, 1}, {&center, 1}, {&center, 1}, {&inside, 1});
+    }
     return inside;
   }
 
@@ -253,6 +264,7 @@ void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::
 
 Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive) {
+  assert(!scene.moves() || samples.has_time());
   const Grid grid = rows.grid();
   const int reach = filter.apron();
   Rendered out;

@@ -62,7 +62,7 @@ void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::
 // `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default
 // path are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and
 // filter.radius(), and require_renderable() must have passed; a set over the image must be of its size and the filter's
-// apron.
+// apron. A moving scene is sampled at the times of the samples: then samples.has_time() must hold.
 Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive = false);
 
