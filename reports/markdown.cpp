@@ -10,6 +10,7 @@
 
 #include "reports/cases.h"
 #include "reports/contrast.h"
+#include "reports/discrepancy_prediction.h"
 #include "reports/filter_comparison.h"
 #include "reports/filter_table.h"
 #include "reports/markdown_table.h"
@@ -286,6 +287,7 @@ std::string markdown_report(std::string_view study_name, const Table& rows, cons
   add_contrast(out, summary, report);
   out += filter_comparison(summary);
   add_filters(out, filters);
+  out += discrepancy_prediction(summary);
   out += noise_report(summary);
   if (!summary.rows.empty()) add_ranking(out, report);
   add_what_was_run(out, rows, report);

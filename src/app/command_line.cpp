@@ -1,21 +1,17 @@
-// The command line by CLI11 (H. Schreiner and others); the only file that knows it.
-//
-// CLI11 splits words into options; everything that can go wrong afterwards is said here, since its own messages name
-// neither choices nor nearest names. So it is told that nothing is required and that unknown words may pass.
+// The commands of the program, by CLI11 (H. Schreiner and others).
 #include "app/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/command_words.h"
+#include "app/image_spectrum.h"
 #include "core/names.h"
 #include "measure/point_spectrum.h"
 #include "patterns/pattern.h"
@@ -24,127 +20,21 @@
 namespace moire {
 namespace {
 
-constexpr int kMaxThreads = 1024;
-
-// One command: its words as CLI11 finds them, and the checks that turn them into options.
-class Words {
- public:
-  Words(CLI::App& parent, const std::string& name, const std::string& about, const std::string& example)
-      : app_(parent.add_subcommand(name, about)) {
-    app_->allow_extras();
-    app_->footer("Example:\n  " + example);
-  }
-
-  Words(Words&&) = default;
-  Words(const Words&) = delete;
-
-  void positional(const std::string& name, const std::string& about) {
-    app_->add_option(name, text_[name], about)->type_name("");
-  }
-  // Any number of words, none included.
-  void positionals(const std::string& name, const std::string& about) {
-    app_->add_option(name, lists_[name], about)->type_name("");
-  }
-  // Without a fallback the value is "" when it is not given.
-  void option(const std::string& name, const std::string& metavar, const std::string& about,
-              const std::string& fallback = "") {
-    std::string& value = text_[name] = fallback;
-    CLI::Option* option = app_->add_option(name, value, about)->type_name(metavar);
-    if (!fallback.empty()) option->default_str(fallback);
-  }
-  void flag(const std::string& name, const std::string& about) { app_->add_flag(name, flags_[name], about); }
-
-  bool chosen() const { return app_->parsed(); }
-  // The usage line of CLI11 has every word in brackets, as if it could be left out.
-  std::string help() const {
-    std::string text = app_->help("moire") + "\n";
-    for (const auto& [name, unused] : text_) {
-      const std::size_t at = text.find("[" + name + "]");
-      if (at != std::string::npos) text.replace(at, name.size() + 2, name);
-    }
-    return text;
-  }
-  const std::string& name() const { return app_->get_name(); }
-  std::string place() const { return "moire " + app_->get_name(); }
-
-  // Throws for words that are left over and for values that are empty.
-  void check() const {
-    const std::vector<std::string> left = app_->remaining();
-    const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) { return word[0] == '-'; });
-    if (option != left.end())
-      throw Error(place(), unknown_name("option", option->substr(0, option->find('=')), names()));
-    if (!left.empty()) {
-      throw Error(place(), fmt::format("\"{}\" is one word too many; see {} --help", left.front(), place()));
-    }
-    for (const CLI::Option* known : app_->get_options()) {
-      const auto value = text_.find(known->get_name());
-      if (value != text_.end() && known->count() > 0 && value->second.empty()) {
-        throw Error(place(), fmt::format("{} is empty; see {} --help", known->get_name(), place()));
-      }
-    }
-  }
-
-  bool has(const std::string& name) const { return !text(name).empty(); }
-  bool is_set(const std::string& name) const { return flags_.at(name); }
-  const std::string& text(const std::string& name) const { return text_.at(name); }
-  const std::vector<std::string>& list(const std::string& name) const { return lists_.at(name); }
-  const std::string& required(const std::string& name) const {
-    if (!has(name)) throw Error(place(), fmt::format("{} is missing; see {} --help", name, place()));
-    return text(name);
-  }
-  std::int64_t integer(const std::string& name, std::int64_t min, std::int64_t max) const {
-    const std::string& word = required(name);
-    std::int64_t value = 0;
-    const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (status != std::errc() || end != word.data() + word.size() || value < min || value > max) {
-      throw Error(name, fmt::format("\"{}\" is not possible; give a whole number, {} to {}", word, min, max));
-    }
-    return value;
-  }
-
- private:
-  std::vector<std::string_view> names() const {
-    std::vector<std::string_view> views;
-    for (const auto& [name, unused] : text_) {
-      if (name[0] == '-') views.push_back(name);
-    }
-    for (const auto& [name, unused] : flags_) views.push_back(name);
-    views.push_back("--help");
-    return views;
-  }
-
-  CLI::App* app_;
-  std::map<std::string, std::string> text_;  // CLI11 keeps references to the values: a map leaves them in place
-  std::map<std::string, std::vector<std::string>> lists_;
-  std::map<std::string, bool> flags_;
-};
-
-void add_draw(Words& words) {
-  words.option("--seed", "S", "names the experiment, 0 to 2^63 - 1", "1");
-  words.option("--trial", "T", "replicate, 0 to 2^32 - 1", "0");
-}
-
-std::uint64_t seed_of(const Words& words) {
-  return static_cast<std::uint64_t>(words.integer("--seed", 0, std::numeric_limits<std::int64_t>::max()));
-}
-
-std::uint32_t trial_of(const Words& words) {
-  return static_cast<std::uint32_t>(words.integer("--trial", 0, std::numeric_limits<std::uint32_t>::max()));
-}
+constexpr int kMaxSets = 1'000'000;  // of a pattern, as in studies
 
 // The commands. Names of options are given once, in the two functions of a command.
 
-Words list_words(CLI::App& app) {
-  Words w(app, "list", "The catalogue: names, parameters and sources", "moire list patterns --json");
+CommandWords list_words(CLI::App& app) {
+  CommandWords w(app, "list", "The catalogue: names, parameters and sources", "moire list patterns --json");
   w.positional("WHAT", "patterns, filters, scenes, studies or measures");
   w.flag("--json", "as a JSON array");
   return w;
 }
 
-Command list_options(const Words& w) { return ListOptions{w.required("WHAT"), w.is_set("--json")}; }
+Command list_options(const CommandWords& w) { return ListOptions{w.required("WHAT"), w.is_set("--json")}; }
 
-Words run_words(CLI::App& app) {
-  Words w(app, "run", "Run a study: results, images and a report", "moire run quick -o out/quick");
+CommandWords run_words(CLI::App& app) {
+  CommandWords w(app, "run", "Run a study: results, images and a report", "moire run quick -o out/quick");
   w.positional("STUDY", "a study file (TOML), or the name of a built-in study");
   w.option("-o", "DIR", "folder of the results; made if it is not there");
   w.option("--threads", "N", "threads, 1 to 1024; default: as many as there are cores");
@@ -153,26 +43,26 @@ Words run_words(CLI::App& app) {
   return w;
 }
 
-Command run_options(const Words& w) {
+Command run_options(const CommandWords& w) {
   RunOptions options;
   options.study = w.required("STUDY");
   options.resume = w.is_set("--resume");
   options.dry_run = w.is_set("--dry-run");
   options.folder = options.dry_run ? w.text("-o") : w.required("-o");
-  if (w.has("--threads")) options.threads = static_cast<int>(w.integer("--threads", 1, kMaxThreads));
+  options.threads = w.threads();
   return options;
 }
 
-Words render_words(CLI::App& app) {
-  Words w(app, "render", "One sampled image and its error",
-          "moire render disk.toml --pattern jittered --spp 16 --filter gaussian:sigma=0.4 -o disk.exr");
+CommandWords render_words(CLI::App& app) {
+  CommandWords w(app, "render", "One sampled image and its error",
+                 "moire render disk.toml --pattern jittered --spp 16 --filter gaussian:sigma=0.4 -o disk.exr");
   w.positional("SCENE", "a scene file (TOML)");
   w.option("--pattern", "P", "sampling pattern, NAME or NAME:key=value,...");
   w.option("--spp", "N", "samples per pixel, 1 to 16777216");
   w.option("--layout", "L", "pixel: the pattern in each pixel; image: one set over all of them", "pixel");
   w.option("--filter", "F", "reconstruction filter, NAME or NAME:key=value,...", "box");
   w.option("--estimator", "E", "how samples become a pixel", "ratio");
-  add_draw(w);
+  w.draw();
   w.option("-o", "FILE", "write the image (float32 EXR)");
   w.option("--error", "FILE", "write image minus exact image (float32 EXR)");
   w.flag("--exhaustive", "evaluate every sample of every pixel, without any skipping");
@@ -180,7 +70,7 @@ Words render_words(CLI::App& app) {
   return w;
 }
 
-Command render_options(const Words& w) {
+Command render_options(const CommandWords& w) {
   RenderOptions options;
   options.scene = w.required("SCENE");
   options.pattern = w.required("--pattern");
@@ -188,8 +78,8 @@ Command render_options(const Words& w) {
   options.layout = w.required("--layout");
   options.filter = w.required("--filter");
   options.estimator = w.required("--estimator");
-  options.seed = seed_of(w);
-  options.trial = trial_of(w);
+  options.seed = w.seed();
+  options.trial = w.trial();
   options.out = w.text("-o");
   options.error = w.text("--error");
   options.exhaustive = w.is_set("--exhaustive");
@@ -197,9 +87,9 @@ Command render_options(const Words& w) {
   return options;
 }
 
-Words exact_words(CLI::App& app) {
-  Words w(app, "exact", "The exact image, or exact values of single pixels with their error bounds",
-          "moire exact disk.toml --filter mitchell --pixels pixels.txt");
+CommandWords exact_words(CLI::App& app) {
+  CommandWords w(app, "exact", "The exact image, or exact values of single pixels with their error bounds",
+                 "moire exact disk.toml --filter mitchell --pixels pixels.txt");
   w.positional("SCENE", "a scene file (TOML)");
   w.option("--filter", "F", "reconstruction filter, NAME or NAME:key=value,...", "box");
   w.option("-o", "FILE", "write the image (float32 EXR)");
@@ -207,43 +97,45 @@ Words exact_words(CLI::App& app) {
   return w;
 }
 
-Command exact_options(const Words& w) {
+Command exact_options(const CommandWords& w) {
   if (w.has("-o") == w.has("--pixels")) {
     throw Error(w.place(), "give either -o FILE for the image or --pixels FILE for single pixels");
   }
   return ExactOptions{w.required("SCENE"), w.required("--filter"), w.text("-o"), w.text("--pixels")};
 }
 
-Words points_words(CLI::App& app) {
-  Words w(app, "points", "A pattern's points in one pixel, CSV x,y", "moire points zaremba --n 16");
+CommandWords points_words(CLI::App& app) {
+  CommandWords w(app, "points", "A pattern's points in one pixel, CSV x,y", "moire points zaremba --n 16");
   w.positional("PATTERN", "sampling pattern, NAME or NAME:key=value,...");
   w.option("--n", "N", "number of points, 1 to 16777216");
   w.option("--dims", "D", "2 for x,y or 3 for x,y,t", "2");
-  add_draw(w);
+  w.draw();
   return w;
 }
 
-Command points_options(const Words& w) {
+Command points_options(const CommandWords& w) {
   return PointsOptions{w.required("PATTERN"), w.integer("--n", 1, kMaxSamples),
-                       static_cast<int>(w.integer("--dims", 2, 3)), seed_of(w), trial_of(w)};
+                       static_cast<int>(w.integer("--dims", 2, 3)), w.seed(), w.trial()};
 }
 
-Words filters_words(CLI::App& app) {
-  Words w(app, "filters", "What filters do, in numbers: blur, ringing, noise and aliasing of their kernels",
-          "moire filters mitchell lanczos:a=2 gaussian:sigma=0.4");
+CommandWords filters_words(CLI::App& app) {
+  CommandWords w(app, "filters", "What filters do, in numbers: blur, ringing, noise and aliasing of their kernels",
+                 "moire filters mitchell lanczos:a=2 gaussian:sigma=0.4");
   w.positionals("FILTER", "reconstruction filters, NAME or NAME:key=value,...; default: all, with all their presets");
   w.flag("--json", "as a JSON array, all digits");
   return w;
 }
 
-Command filters_options(const Words& w) { return FiltersOptions{w.list("FILTER"), w.is_set("--json")}; }
+Command filters_options(const CommandWords& w) { return FiltersOptions{w.list("FILTER"), w.is_set("--json")}; }
 
-Words spectrum_words(CLI::App& app) {
-  Words w(app, "spectrum", "Which frequencies a pattern, a set of points or the error of an image contains",
-          "moire spectrum jittered --n 1600 --trials 16 -o out/jittered");
+CommandWords spectrum_words(CLI::App& app) {
+  CommandWords w(app, "spectrum", "Which frequencies a pattern, a set of points or the error of an image contains",
+                 "moire spectrum jittered --n 1600 --trials 16 -o out/jittered");
   w.positional("WHAT", "a sampling pattern, NAME or NAME:key=value,..., or an image, .exr or .png");
   w.option("--points", "FILE", "in place of WHAT: lines x,y or x,y,t in [0, 1), sets apart by a line #; - is stdin");
   w.option("--reference", "REF", "of an image: what is subtracted; without it the image is an error already");
+  w.option("--window", "W", "of an image: none, or hann for images that do not go on periodically; default none");
+  w.option("--pixels-per-degree", "P", "of an image: pixels per degree of the eye's field, 1 to 1000; default 32");
   w.option("--n", "N", "of a pattern: number of points, 1 to 16777216");
   w.option("--trials", "T", "of a pattern: sets to average, default 16; 1 if its points do not vary");
   w.option("--seed", "S", "of a pattern: names the experiment, 0 to 2^63 - 1; default 1");
@@ -253,14 +145,7 @@ Words spectrum_words(CLI::App& app) {
   return w;
 }
 
-// Throws for options that belong to another kind of spectrum.
-void check_kind(const Words& w, const std::string& kind, std::initializer_list<const char*> foreign) {
-  for (const char* name : foreign) {
-    if (w.has(name)) throw Error(name, fmt::format("does not go with {}; leave it out", kind));
-  }
-}
-
-Command spectrum_options(const Words& w) {
+Command spectrum_options(const CommandWords& w) {
   SpectrumOptions options;
   options.what = w.text("WHAT");
   options.points = w.text("--points");
@@ -276,16 +161,82 @@ Command spectrum_options(const Words& w) {
     }
   }
   if (!options.points.empty()) {
-    check_kind(w, "--points", {"--reference", "--n", "--trials", "--seed"});
-  } else if (options.what.ends_with(".exr") || options.what.ends_with(".png")) {
-    check_kind(w, "an image", {"--n", "--trials", "--seed", "--frequencies"});
+    w.refuse("--points", {"--reference", "--window", "--pixels-per-degree", "--n", "--trials", "--seed"});
+  } else if (is_image_name(options.what)) {
+    w.refuse("an image", {"--n", "--trials", "--seed", "--frequencies"});
     options.reference = w.text("--reference");
+    if (w.has("--window")) options.window = find_window(w.text("--window"), "--window");
+    if (w.has("--pixels-per-degree")) options.pixels_per_degree = w.number("--pixels-per-degree", 1, 1000);
   } else {
-    check_kind(w, "a pattern", {"--reference"});
+    w.refuse("a pattern", {"--reference", "--window", "--pixels-per-degree"});
+    PatternChoice(parse_spec(options.what, "PATTERN"));  // a wrong name is told before a missing count
     options.n = w.integer("--n", 1, kMaxSamples);
     if (w.has("--trials")) options.trials = w.integer("--trials", 1, std::numeric_limits<std::uint32_t>::max());
-    if (w.has("--seed")) options.seed = seed_of(w);
+    if (w.has("--seed")) options.seed = w.seed();
   }
+  return options;
+}
+
+CommandWords discrepancy_words(CLI::App& app) {
+  CommandWords w(app, "discrepancy", "How unevenly points fill the square or the cube: T (L2) and D (L-infinity)",
+                 "moire discrepancy zaremba jittered --n 16,256,1600 --measure star-l2,edge-l2");
+  w.positionals("PATTERN", "sampling patterns, NAME or NAME:key=value,...");
+  w.option("--points", "FILE", "in place of PATTERN: lines x,y or x,y,t in [0, 1), sets apart by a line #; - is stdin");
+  w.option("--n", "LIST", "of patterns: numbers of points, with commas between them");
+  w.option("--measure", "M", "discrepancies, with commas between them; moire list measures has them");
+  w.option("--dims", "D", "2 for x,y or 3 for x,y,t; default 2, or as many as FILE has");
+  w.option("--trials", "T", "of patterns: sets; default 16, 1 if their points do not vary");
+  w.option("--seed", "S", "names the experiment, 0 to 2^63 - 1", "1");
+  w.option("--method", "METHOD", "of T: closed-form or monte-carlo; default closed-form");
+  w.option("--lines", "L", "random tests (lines, boxes, disks) per set for monte-carlo; default 10000");
+  w.option("--radius", "R", "of disk-l2: one radius, to 1/2; default: uniformly distributed to 1/2");
+  w.option("--threads", "N", "threads, 1 to 1024; default: as many as there are cores");
+  w.flag("--json", "as a JSON array, all digits");
+  return w;
+}
+
+// A list with commas; a comma that belongs to a parameter, before another key=, does not separate.
+std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> items;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    const bool goes_on = !items.empty() && items.back().find(':') != std::string::npos &&
+                         item.find('=') != std::string::npos && item.find(':') == std::string::npos;
+    if (goes_on) {
+      items.back() += "," + item;
+    } else {
+      items.push_back(item);
+    }
+    begin = end + 1;
+  }
+  return items;
+}
+
+Command discrepancy_options(const CommandWords& w) {
+  DiscrepancyOptions options;
+  options.patterns = w.list("PATTERN");
+  options.points = w.text("--points");
+  if (options.patterns.empty() == options.points.empty()) {
+    throw Error(w.place(), "give patterns or --points FILE; see moire discrepancy --help");
+  }
+  if (options.points.empty()) {
+    for (const std::string& word : listed(w.required("--n"))) {
+      options.n.push_back(static_cast<int>(whole_number("--n", word, 1, kMaxSamples)));
+    }
+    if (w.has("--trials")) options.trials = static_cast<int>(w.integer("--trials", 1, kMaxSets));
+  } else {
+    w.refuse("--points", {"--n", "--trials"});
+  }
+  options.measures = listed(w.required("--measure"));
+  if (w.has("--dims")) options.dims = static_cast<int>(w.integer("--dims", 2, 3));
+  options.seed = w.seed();
+  options.method = w.text("--method");
+  options.lines = w.text("--lines");
+  options.radius = w.text("--radius");
+  options.threads = w.threads();
+  options.json = w.is_set("--json");
   return options;
 }
 
@@ -307,13 +258,13 @@ Command parse_command_line(int argc, const char* const* argv) {
       "Exit codes: 0 ok, 1 a comparison or a stated bound failed, 2 usage or input error,\n"
       "3 input/output error, 130 interrupted.\n\nExample:\n  moire run quick -o out/quick");
   struct Entry {
-    Words words;
-    Command (*options)(const Words&);
+    CommandWords words;
+    Command (*options)(const CommandWords&);
   };
-  Entry entries[] = {{list_words(app), list_options},        {run_words(app), run_options},
-                     {render_words(app), render_options},    {exact_words(app), exact_options},
-                     {points_words(app), points_options},    {filters_words(app), filters_options},
-                     {spectrum_words(app), spectrum_options}};
+  Entry entries[] = {{list_words(app), list_options},         {run_words(app), run_options},
+                     {render_words(app), render_options},     {exact_words(app), exact_options},
+                     {points_words(app), points_options},     {filters_words(app), filters_options},
+                     {spectrum_words(app), spectrum_options}, {discrepancy_words(app), discrepancy_options}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "measure/contrast_sensitivity.h"
+#include "measure/spectrum.h"
 
 namespace moire {
 
@@ -59,19 +61,34 @@ struct FiltersOptions {
 };
 
 struct SpectrumOptions {
-  std::string what;                    // a pattern, or an image: a word that ends in .exr or .png; "" with points
-  std::string points;                  // a file of point sets, "-" for standard input, or ""
-  std::string reference;               // with an image: what to subtract, or ""
-  std::int64_t n = 0;                  // with a pattern
-  std::optional<std::int64_t> trials;  // with a pattern
+  std::string what;       // a pattern, or an image (is_image_name() in image_spectrum.h); "" with points
+  std::string points;     // a file of point sets, "-" for standard input, or ""
+  std::string reference;  // with an image: what to subtract, or ""
+  SpectrumWindow window = SpectrumWindow::none;  // with an image
+  double pixels_per_degree = kPixelsPerDegree;   // with an image
+  std::int64_t n = 0;                            // with a pattern
+  std::optional<std::int64_t> trials;            // with a pattern
   std::uint64_t seed = 1;
   int frequencies = 0;  // along each axis, even; 0: by the number of points
   std::string folder;   // of the files, "": none
   bool json = false;
 };
 
+struct DiscrepancyOptions {
+  std::vector<std::string> patterns;  // at least one, or
+  std::string points;                 // a file of point sets, "-" for standard input
+  std::vector<int> n;                 // with patterns
+  std::vector<std::string> measures;
+  int dims = 0;  // 2 or 3; 0: 2 of patterns, and as many as a file has
+  int trials = 16;
+  std::uint64_t seed = 1;
+  std::string method, lines, radius;  // "": as the measures themselves say
+  int threads = 0;                    // 0: as many as there are cores
+  bool json = false;
+};
+
 using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions,
-                             FiltersOptions, SpectrumOptions>;
+                             FiltersOptions, SpectrumOptions, DiscrepancyOptions>;
 
 Exit execute(const TextOptions& options);
 Exit execute(const ListOptions& options);
@@ -81,5 +98,6 @@ Exit execute(const ExactOptions& options);
 Exit execute(const PointsOptions& options);
 Exit execute(const FiltersOptions& options);
 Exit execute(const SpectrumOptions& options);
+Exit execute(const DiscrepancyOptions& options);
 
 }  // namespace moire

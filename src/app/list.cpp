@@ -13,6 +13,7 @@
 #include "filters/filter.h"
 #include "patterns/pattern.h"
 #include "reports/json.h"
+#include "study/discrepancy_measure.h"
 #include "study/measures.h"
 #include "testimages/testimage.h"
 
@@ -22,6 +23,7 @@ namespace {
 struct Entry {
   std::string_view name, title, cite;
   std::span<const Param> params;
+  int dims = 0;  // of a pattern: 2, or 3 where its points have a time
 };
 
 template <class Infos>
@@ -31,13 +33,20 @@ std::vector<Entry> entries_of(const Infos& infos) {
   return entries;
 }
 
+std::vector<Entry> pattern_entries() {
+  std::vector<Entry> entries = entries_of(patterns());
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].dims = patterns()[i]->has_time ? 3 : 2;
+  return entries;
+}
+
 std::vector<Entry> find_entries(std::string_view what) {
-  if (what == "patterns") return entries_of(patterns());
+  if (what == "patterns") return pattern_entries();
   if (what == "filters") return entries_of(filters());
   if (what == "scenes") return entries_of(testimages());
   if (what == "measures") {
     std::vector<Entry> entries;
     for (const MeasureInfo& m : measures()) entries.push_back({m.name, m.title, m.cite, {}});
+    for (const DiscrepancyInfo& d : discrepancies()) entries.push_back({d.name, d.title, d.cite, d.params});
     return entries;
   }
   if (what == "studies") {
@@ -82,7 +91,7 @@ std::string param_json(const Param& p) {
   return fmt::format("{},\"choices\":[{}],\"required\":{}}}", open_object(row), choices, p.required);
 }
 
-std::string entry_json(const Entry& entry, bool is_pattern) {
+std::string entry_json(const Entry& entry) {
   Row row;
   row.set("name", std::string(entry.name));
   row.set("title", std::string(entry.title));
@@ -92,7 +101,8 @@ std::string entry_json(const Entry& entry, bool is_pattern) {
     if (!params.empty()) params += ',';
     params += param_json(p);
   }
-  return fmt::format("{}{},\"params\":[{}]}}", open_object(row), is_pattern ? ",\"dims\":[2]" : "", params);
+  const std::string_view dims = entry.dims == 3 ? ",\"dims\":[2,3]" : entry.dims == 2 ? ",\"dims\":[2]" : "";
+  return fmt::format("{}{},\"params\":[{}]}}", open_object(row), dims, params);
 }
 
 std::string param_text(const Param& p) {
@@ -105,8 +115,9 @@ std::string param_text(const Param& p) {
 }
 
 std::string entry_text(const Entry& entry) {
-  std::string text = fmt::format("{:<14} {}", entry.name, entry.title);
+  std::string text = fmt::format("{:<20} {}", entry.name, entry.title);
   if (!entry.cite.empty()) text += fmt::format(" [{}]", entry.cite);
+  if (entry.dims == 3) text += "; with a time";
   text += "\n";
   for (const Param& p : entry.params) text += param_text(p);
   return text;
@@ -125,7 +136,7 @@ Exit execute(const ListOptions& options) {
   for (const Entry& entry : entries) {
     if (options.json) {
       text += text.empty() ? "[" : ",\n ";
-      text += entry_json(entry, options.what == "patterns");
+      text += entry_json(entry);
     } else {
       text += entry_text(entry);
     }

@@ -65,6 +65,7 @@ Exit execute(const RenderOptions& options) {
     throw Error("--error", "\"" + options.error + "\" is the file of -o, too; give two names");
   }
   const Study study = study_of(options);
+  if (study.scenes[0].image.moves()) study.patterns[0].require_time();
   // An exhaustive image is dense in memory, too.
   if (!options.out.empty() || !options.error.empty() || options.exhaustive) check_image_size(study.scenes[0], "SCENE");
   require_renderable(study.scenes[0].image.grid(), study.filters[0], study.spp[0], "SCENE");

@@ -14,18 +14,10 @@ namespace {
 
 constexpr std::string_view kAdvice = "give another folder, or run without --resume to start again";
 
-// As describe() writes the case that the row is of.
-std::string case_of(const Row& row) {
-  return fmt::format("{} {} {:.0f} {} {} {:.0f}{}", row.text("scene"), row.text("pattern"), row.number("spp"),
-                     row.text("filter"), row.text("estimator"), row.number("trial"),
-                     row.text("layout") == "image" ? " image" : "");
-}
-
 }  // namespace
 
-Earlier find_earlier(const std::string& path, const std::string& header, const Study& study,
-                     const std::vector<Case>& cases) {
-  Earlier earlier{read_results(path), Table(cases.size()), 0};
+Earlier find_earlier(const std::string& path, const std::string& header, const PlannedRows& planned) {
+  Earlier earlier{read_results(path), Table(planned.keys.size()), 0};
   ResultsFile& file = earlier.file;
   if (file.header.empty()) {
     // The very first line may have been cut; anything else is not ours to write over.
@@ -34,19 +26,19 @@ Earlier find_earlier(const std::string& path, const std::string& header, const S
     return earlier;
   }
   // The seed stands in the study's text as well, but names what differs.
-  const auto seed = static_cast<double>(study.seed);
+  const auto seed = static_cast<double>(planned.seed);
   if (!file.rows.empty() && file.rows.front().number("seed") != seed) {
     throw Error(path, fmt::format("is of another seed ({:.0f}, here {}); {}", file.rows.front().number("seed"),
-                                  study.seed, kAdvice));
+                                  planned.seed, kAdvice));
   }
   if (const std::string difference = header_difference(file.header, header); !difference.empty()) {
     throw Error(path, fmt::format("is of {}; {}", difference, kAdvice));
   }
 
   std::unordered_map<std::string, std::size_t> index_of;
-  for (std::size_t i = 0; i < cases.size(); ++i) index_of.emplace(describe(study, cases[i]), i);
+  for (std::size_t i = 0; i < planned.keys.size(); ++i) index_of.emplace(planned.keys[i], i);
   for (std::size_t i = 0; i < file.rows.size(); ++i) {
-    const std::string name = case_of(file.rows[i]), place = fmt::format("{}:{}", path, i + 2);
+    const std::string name = planned.key_of(file.rows[i]), place = fmt::format("{}:{}", path, i + 2);
     const auto found = index_of.find(name);
     if (found == index_of.end() || file.rows[i].number("seed") != seed) {
       throw Error(place, fmt::format("\"{}\" is no case of this study; mend or remove the line", name));

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/names.h"
+#include "study/document.h"
 #include "study/text_file.h"
 
 namespace moire {
@@ -16,6 +17,12 @@ namespace {
 constexpr BuiltinStudy kStudies[] = {
 #include "builtin_studies.inc"
 };
+
+AnyStudy parse_any(std::string_view text, const std::string& file, const std::string& stem) {
+  const Node root = parse_toml(text, file);
+  if (is_discrepancy_study(root)) return parse_discrepancy_study(root, text, stem);
+  return parse_study(text, file, stem);
+}
 
 }  // namespace
 
@@ -27,10 +34,10 @@ std::string_view study_title(std::string_view text) {
   return text.substr(0, text.find('\n'));
 }
 
-Study load_study(const std::string& word) {
+AnyStudy load_study(const std::string& word) {
   std::vector<std::string_view> names;
   for (const BuiltinStudy& study : builtin_studies()) {
-    if (study.name == word) return parse_study(study.text, word + ".toml", word);
+    if (study.name == word) return parse_any(study.text, word + ".toml", word);
     names.push_back(study.name);
   }
   const std::filesystem::path path(word);
@@ -38,7 +45,7 @@ Study load_study(const std::string& word) {
   if (word.find('/') == std::string::npos && path.extension() != ".toml" && !std::filesystem::exists(path, none)) {
     throw Error("STUDY", unknown_name("built-in study", word, names) + "; or give a file, NAME.toml");
   }
-  return parse_study(read_text(word), word, path.stem().string());
+  return parse_any(read_text(word), word, path.stem().string());
 }
 
 }  // namespace moire

@@ -4,7 +4,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
+#include "study/discrepancy_study.h"
 #include "study/study.h"
 
 namespace moire {
@@ -18,8 +20,11 @@ std::span<const BuiltinStudy> builtin_studies();
 // What a study is for: the first comment of its text.
 std::string_view study_title(std::string_view text);
 
+// Of images, or of discrepancies alone.
+using AnyStudy = std::variant<Study, DiscrepancyStudy>;
+
 // A built-in study by name, else a study file. Throws Error; a word that is neither a built-in name nor looks like a
 // file (no '/', no ".toml") is answered with the nearest names.
-Study load_study(const std::string& word);
+AnyStudy load_study(const std::string& word);
 
 }  // namespace moire

@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <limits>
 
 #include "core/sum.h"
@@ -208,6 +209,23 @@ Split TrialMoments::split(std::int64_t n_pixels) const {
   s.variance = deviations.value() / (t - 1) / n;
   s.bias_sq = mean_squared.value() / n - s.variance / t;
   return s;
+}
+
+Ratio ratio_of_sums(std::span<const double> above, std::span<const double> below) {
+  assert(above.size() == below.size());
+  const double a = std::accumulate(above.begin(), above.end(), 0.0),
+               b = std::accumulate(below.begin(), below.end(), 0.0);
+  Ratio ratio{a / b, std::nullopt};
+  const auto n = static_cast<std::int64_t>(above.size());
+  if (n < 2 || !std::isfinite(ratio.value)) return ratio;
+  double squares = 0;
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    const double off = above[i] - ratio.value * below[i];
+    squares += off * off;
+  }
+  const double count = static_cast<double>(n), error = std::sqrt(squares * count / (count - 1)) / b;
+  ratio.interval = {ratio.value - student_t95(n - 1) * error, ratio.value + student_t95(n - 1) * error};
+  return ratio;
 }
 
 }  // namespace moire

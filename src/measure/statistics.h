@@ -29,6 +29,15 @@ double rms_over_trials(std::span<const double> mse, std::span<const double> weig
 inline constexpr std::string_view kRmsMethod = "t-log-mse";
 std::optional<Interval> rms_interval(std::span<const double> mse, std::span<const double> weights = {});
 
+// The sum of `above` over the sum of `below`, with a 95% interval over clusters: each has the sums of what
+// belongs together, such as all pixels and trials of a line. Ratio estimator, W. G. Cochran, "Sampling techniques",
+// 1977, section 6.3. Fewer than 2 clusters: no interval.
+struct Ratio {
+  double value = 0;
+  std::optional<Interval> interval;
+};
+Ratio ratio_of_sums(std::span<const double> above, std::span<const double> below);
+
 // The errors at one sample count: mse[t] belongs to trial t, the same trials in the same order at every count.
 struct SlopePoint {
   double n = 1;  // samples per pixel, > 0

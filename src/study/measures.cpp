@@ -19,6 +19,10 @@ constexpr MeasureInfo kMeasures[] = {
      "Mitchell and Netravali, \"Reconstruction filters in computer graphics\", 1988 (sample-frequency ripple)"},
     {Measure::ringing, "ringing", "How far an image and its filter's exact image leave [0, 1]",
      "Marschner and Lobb, \"An evaluation of reconstruction filters for volume rendering\", 1994 (overshoot)"},
+    {Measure::edge_ratio, "edge-ratio",
+     "Squared box error of the pixels that an edge hits over the squared edge-l2 of their samples: 1 for isotropic "
+     "lines",
+     "Mitchell, \"Ray tracing and irregularities of distribution\", 1992, section 5"},
     {Measure::spectrum, "spectrum",
      "What the errors look like: their power by frequency, split into structure (Moire) and noise (grain)",
      "Ulichney, \"Dithering with blue noise\", 1988; Mannos and Sakrison, \"The effects of a visual fidelity criterion "

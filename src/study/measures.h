@@ -14,6 +14,7 @@ enum class Measure : std::uint8_t {
   coverage,    // got - coverage and exact - coverage: what the filter itself changes
   flat_field,  // noise of a constant scene under the unnormalised estimator
   ringing,     // how far images leave [0, 1]
+  edge_ratio,  // squared error over squared edge discrepancy of the samples
   spectrum,    // power of the errors by frequency: structure and noise
   kernel,      // the filters' own metrics beside the results
   count_       // how many there are

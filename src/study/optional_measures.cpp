@@ -5,6 +5,7 @@
 
 #include "study/columns.h"
 #include "study/flat_field.h"
+#include "study/hit_pixels.h"
 
 namespace moire {
 namespace {
@@ -58,6 +59,19 @@ double OptionalMeasures::flat_field(const Case& c, SampleMaker& maker) {
   return known->second;
 }
 
+const std::vector<double>& OptionalMeasures::discrepancies(const Case& c, bool moves) {
+  const auto [known, is_new] = discrepancies_.try_emplace({c.pattern, c.spp, c.trial, moves});
+  if (!is_new) return known->second;
+  const auto n = static_cast<std::size_t>(study_.spp[c.spp]);
+  std::vector<double> x(n), y(n), t(moves ? n : 0);
+  Pattern(study_.patterns[c.pattern], study_.spp[c.spp], Draw{study_.seed, c.trial}).fill_set({x, y, t});
+  const Key key = pixel_key(draw_hash(study_.seed, c.trial), {});
+  for (const DiscrepancyChoice& choice : study_.discrepancies) {
+    known->second.push_back(choice({x, y, t}, key).value);
+  }
+  return known->second;
+}
+
 void OptionalMeasures::add(const Case& c, SampleMaker& maker, const Truth& truth, CaseResult& result) {
   Row& row = result.row;
   if (study_.measures.has(Measure::coverage)) {
@@ -65,6 +79,18 @@ void OptionalMeasures::add(const Case& c, SampleMaker& maker, const Truth& truth
     set_coverage(row, "filter", of_exact(c, truth).coverage);
   }
   if (study_.measures.has(Measure::flat_field)) row.set("flat_field_rms", flat_field(c, maker));
+  if (study_.measures.has(Measure::edge_ratio)) {
+    const bool same = study_.layouts[c.layout] == Layout::pixel && !varies(study_, c.scene, c.pattern);
+    set_hit_pixels(row, has_edge_ratio(study_, c) ? hit_pixels(truth, result, maker.samples(c), same) : HitPixels{});
+  }
+  if (!study_.discrepancies.empty()) {
+    const bool moves = study_.scenes[c.scene].image.moves();
+    const std::vector<double>& values = discrepancies(c, moves);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const DiscrepancyInfo& info = study_.discrepancies[i].info();
+      row.set(discrepancy_column(info, moves && info.has_3d), values[i]);
+    }
+  }
   if (study_.measures.has(Measure::ringing)) {
     set_excursion(row, "got", excursion_of(truth.rows, result.got));
     set_excursion(row, "exact", of_exact(c, truth).excursion);

@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <limits>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "core/args.h"
 #include "core/error.h"
 #include "core/names.h"
 #include "study/document.h"
+#include "study/lists.h"
 #include "study/scene_file.h"
 #include "study/study.h"
+#include "study/study_keys.h"
 #include "study/text_file.h"
 
 namespace moire {
@@ -22,43 +22,6 @@ namespace {
 
 constexpr std::array<std::string_view, 11> kStudyKeys = {
     "name", "seed", "trials", "layout", "spp", "patterns", "filters", "estimators", "measures", "images", "spectrum"};
-
-// The members of a list that must not be empty.
-const std::vector<Node>& list_of(const Node& node, std::string_view what, std::string_view example) {
-  if (node.kind != Node::Kind::list || node.items.empty()) {
-    throw Error(node.place,
-                fmt::format("{} is {}; give a list such as {}", what,
-                            node.kind == Node::Kind::list ? "an empty list" : kind_name(node.kind), example));
-  }
-  return node.items;
-}
-
-void refuse_twice(const Node& node, std::string_view what, bool inserted) {
-  if (!inserted) throw Error(node.place, fmt::format("{} is listed twice; name each one once", what));
-}
-
-std::vector<int> parse_spp(const Node& node) {
-  std::vector<int> counts;
-  for (const Node& item : list_of(node, "spp", "[1, 4, 16]")) {
-    const int n = static_cast<int>(integer_of(item, "a number of samples per pixel", 1, kMaxSamples));
-    refuse_twice(item, std::to_string(n), std::find(counts.begin(), counts.end(), n) == counts.end());
-    counts.push_back(n);
-  }
-  return counts;
-}
-
-// A list of specs: `make` turns each into a choice; the texts must differ.
-template <class T, class F>
-std::vector<T> parse_specs(const Node& node, std::string_view what, std::string_view example, F&& make) {
-  std::vector<T> choices;
-  std::unordered_set<std::string> seen;
-  for (const Node& item : list_of(node, what, example)) {
-    const std::string& text = text_of(item, fmt::format("an entry of {}", what));
-    refuse_twice(item, fmt::format("\"{}\"", text), seen.insert(text).second);
-    choices.push_back(make(text, item.place));
-  }
-  return choices;
-}
 
 // Paths start from `folder`, the study file's. The texts of files that the filter reads are appended to the study's.
 Filter make_filter(const std::string& text, const std::string& place, const std::filesystem::path& folder,
@@ -90,31 +53,36 @@ std::vector<Layout> parse_layouts(const Node& node) {
   return layouts;
 }
 
-MeasureSet parse_measures(const Node& node) {
-  MeasureSet set;
+// Measures of images, and discrepancies of the patterns' sets, one of a kind.
+void parse_measures(const Node& node, Study& study) {
+  MeasureSet& set = study.measures;
   for (const Node& item : list_of(node, "measures", "[\"error\"]")) {
-    const Measure m = find_measure(text_of(item, "an entry of measures"), item.place);
+    const std::string& text = text_of(item, "an entry of measures");
+    if (const Spec spec = parse_spec(text, item.place); is_discrepancy(spec.name)) {
+      const bool is_new = std::none_of(study.discrepancies.begin(), study.discrepancies.end(),
+                                       [&](const DiscrepancyChoice& known) { return known.info().name == spec.name; });
+      refuse_twice(item, fmt::format("\"{}\"", spec.name), is_new);
+      study.discrepancies.emplace_back(spec);
+      continue;
+    }
+    const Measure m = find_measure(text, item.place);
     refuse_twice(item, fmt::format("\"{}\"", item.text), !set.has(m));
     set.add(m);
   }
   if (!set.has(Measure::error)) {
     throw Error(node.place, "measures has no \"error\", which summaries and rankings rest on; add it");
   }
-  return set;
 }
 
 SpectrumSettings parse_spectrum(const Node& node) {
   if (node.kind != Node::Kind::table) {
     throw Error(node.place, fmt::format("spectrum is {}; write a table [spectrum]", kind_name(node.kind)));
   }
-  constexpr std::string_view kKeys[] = {"window", "pixels_per_degree"}, kWindows[] = {"none", "hann"};
+  constexpr std::string_view kKeys[] = {"window", "pixels_per_degree"};
   SpectrumSettings settings;
   for (const Node& item : node.items) {
     if (item.key == "window") {
-      const std::string& name = text_of(item, "window");
-      const auto known = std::find(std::begin(kWindows), std::end(kWindows), name);
-      if (known == std::end(kWindows)) throw Error(item.place, unknown_name("window", name, kWindows));
-      settings.window = static_cast<SpectrumWindow>(known - std::begin(kWindows));
+      settings.window = find_window(text_of(item, "window"), item.place);
     } else if (item.key == "pixels_per_degree") {
       settings.pixels_per_degree = exact_number(item);
       if (!(settings.pixels_per_degree >= 1 && settings.pixels_per_degree <= 1000)) {
@@ -128,14 +96,48 @@ SpectrumSettings parse_spectrum(const Node& node) {
   return settings;
 }
 
-Images parse_images(const Node& node) {
-  constexpr std::string_view kNames[] = {"none", "first-trial", "all"};
-  constexpr Images kValues[] = {Images::none, Images::first_trial, Images::all};
-  const std::string& text = text_of(node, "images");
-  for (std::size_t i = 0; i < std::size(kNames); ++i) {
-    if (text == kNames[i]) return kValues[i];
+// Keys of a [[scene]] table that are no scene's own.
+constexpr std::array<std::string_view, 3> kCaseKeys = {"patterns", "spp", "layout"};
+
+bool is_case_key(std::string_view key) { return std::find(kCaseKeys.begin(), kCaseKeys.end(), key) != kCaseKeys.end(); }
+
+// Where the members of a list of the scene's stand in the study's; `texts` are the study's, in words.
+std::vector<std::uint32_t> chosen(const Node& node, const std::vector<std::string>& texts) {
+  std::vector<std::uint32_t> indices;
+  const std::vector<Node> one{node};
+  const bool is_list = node.kind == Node::Kind::list;
+  for (const Node& item : is_list ? list_of(node, node.key, "the study's") : one) {
+    const std::string text =
+        item.kind == Node::Kind::integer ? std::to_string(item.integer) : text_of(item, "an entry of " + node.key);
+    const auto at = std::find(texts.begin(), texts.end(), text);
+    if (at == texts.end()) {
+      const std::vector<std::string_view> known(texts.begin(), texts.end());
+      throw Error(item.place, fmt::format("\"{}\" is not in the study's own list of {}; there are {}", text, node.key,
+                                          join(known)));
+    }
+    const auto index = static_cast<std::uint32_t>(at - texts.begin());
+    refuse_twice(item, fmt::format("\"{}\"", text), std::find(indices.begin(), indices.end(), index) == indices.end());
+    indices.push_back(index);
   }
-  throw Error(node.place, unknown_name("images", text, kNames));
+  std::sort(indices.begin(), indices.end());  // the plan goes in the study's order
+  return indices;
+}
+
+// What a [[scene]] table restricts its scenes to.
+SceneCases parse_cases(const Node& table, const Study& study) {
+  std::vector<std::string> patterns, spp, layouts;
+  for (const PatternChoice& p : study.patterns) patterns.push_back(p.text());
+  for (const int n : study.spp) spp.push_back(std::to_string(n));
+  for (const Layout layout : study.layouts) layouts.emplace_back(name_of(layout));
+  SceneCases cases = all_cases(study);
+  const auto restrict_to = [&](std::string_view key, const std::vector<std::string>& texts,
+                               std::vector<std::uint32_t>& indices) {
+    if (const Node* node = table.find(key)) indices = chosen(*node, texts);
+  };
+  restrict_to("patterns", patterns, cases.patterns);
+  restrict_to("spp", spp, cases.spp);
+  restrict_to("layout", layouts, cases.layouts);
+  return cases;
 }
 
 // The scenes of one [[scene]] table. A scene file's text is appended to the study's.
@@ -146,10 +148,12 @@ std::vector<NamedScene> parse_scene_table(const Node& table, const std::string& 
   if (path == nullptr) {
     const Node* kind = table.find("kind");
     const Node* named_by = name != nullptr ? name : kind;
-    return scenes_of(table, named_by != nullptr ? name_of(*named_by, named_by->key) : "", limit);
+    Node own = table;
+    std::erase_if(own.items, [](const Node& node) { return is_case_key(node.key); });
+    return scenes_of(own, named_by != nullptr ? name_of(*named_by, named_by->key) : "", limit);
   }
   for (const Node& member : table.items) {
-    if (member.key != "file" && member.key != "name") {
+    if (member.key != "file" && member.key != "name" && !is_case_key(member.key)) {
       throw Error(
           member.key_place,
           fmt::format("\"{}\" stands beside \"file\"; put it into that file, or give all keys here", member.key));
@@ -171,20 +175,20 @@ std::vector<NamedScene> parse_scene_table(const Node& table, const std::string& 
   return scenes_of(scene, own != nullptr ? name_of(*own, "name") : full.stem().string(), limit);
 }
 
-std::vector<NamedScene> parse_scenes(const Node& root, const std::string& file, std::string& study_text) {
+void parse_scenes(const Node& root, const std::string& file, Study& study) {
   const Node* list = root.find("scene");
   if (list == nullptr) throw Error(root.place, "the study has no scenes; add a table [[scene]]");
   if (list->kind != Node::Kind::list || list->items.empty()) {
     throw Error(list->place, fmt::format("scene is {}; write each scene as a table [[scene]]", kind_name(list->kind)));
   }
-  std::vector<NamedScene> scenes;
+  std::vector<NamedScene>& scenes = study.scenes;
   // A table's scenes may be one family, whose name must be no other table's either.
   std::unordered_map<std::string, const Node*> table_of;
   for (const Node& table : list->items) {
     if (table.kind != Node::Kind::table) {
       throw Error(table.place, fmt::format("a scene is {}; write it as a table [[scene]]", kind_name(table.kind)));
     }
-    for (NamedScene& scene : parse_scene_table(table, file, kMaxScenes - scenes.size(), study_text)) {
+    for (NamedScene& scene : parse_scene_table(table, file, kMaxScenes - scenes.size(), study.text)) {
       if (scene.name.empty()) throw Error(table.place, "the scene's name is empty; give name = \"NAME\"");
       const std::string family(scene_family(scene.name));
       const auto known = table_of.try_emplace(family, &table).first;
@@ -194,8 +198,8 @@ std::vector<NamedScene> parse_scenes(const Node& root, const std::string& file, 
       }
       scenes.push_back(std::move(scene));
     }
+    study.scene_cases.resize(scenes.size(), parse_cases(table, study));
   }
-  return scenes;
 }
 
 }  // namespace
@@ -213,39 +217,37 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
   study.text = std::string(text);
   study.name = stem;
   if (const Node* n = root.find("name")) study.name = name_of(*n, "name");
-  if (const Node* n = root.find("seed")) {
-    study.seed = static_cast<std::uint64_t>(integer_of(*n, "seed", 0, std::numeric_limits<std::int64_t>::max()));
-  }
+  if (const Node* n = root.find("seed")) study.seed = seed_of(*n);
   if (const Node* n = root.find("trials")) study.trials = static_cast<int>(integer_of(*n, "trials", 1, kMaxTrials));
   if (const Node* n = root.find("layout")) study.layouts = parse_layouts(*n);
   const Node* spp = root.find("spp");
-  study.spp = spp != nullptr ? parse_spp(*spp) : std::vector<int>{1, 4, 16, 64, 256};
+  study.spp = spp != nullptr ? integers_of(*spp, "spp", "[1, 4, 16]", "a number of samples per pixel", 1, kMaxSamples)
+                             : std::vector<int>{1, 4, 16, 64, 256};
   const Node* patterns = root.find("patterns");
   if (patterns == nullptr) throw Error(root.place, "the study has no patterns; add patterns = [\"jittered\"]");
-  study.patterns = parse_specs<PatternChoice>(
+  study.patterns = specs_of<PatternChoice>(
       *patterns, "patterns", "[\"jittered\"]",
       [](const std::string& t, const std::string& place) { return PatternChoice(parse_spec(t, place)); });
   if (const Node* n = root.find("filters")) {
-    study.filters =
-        parse_specs<Filter>(*n, "filters", "[\"box\"]", [&](const std::string& t, const std::string& place) {
-          return make_filter(t, place, std::filesystem::path(file).parent_path(), study.text);
-        });
+    study.filters = specs_of<Filter>(*n, "filters", "[\"box\"]", [&](const std::string& t, const std::string& place) {
+      return make_filter(t, place, std::filesystem::path(file).parent_path(), study.text);
+    });
   } else {
     study.filters = {Filter(parse_spec("box", file))};
   }
   if (const Node* n = root.find("estimators")) {
-    study.estimators = parse_specs<EstimatorChoice>(*n, "estimators", "[\"ratio\"]", make_estimator);
+    study.estimators = specs_of<EstimatorChoice>(*n, "estimators", "[\"ratio\"]", make_estimator);
   } else {
     study.estimators = {make_estimator("ratio", file)};
   }
   if (const Node* n = root.find("measures")) {
-    study.measures = parse_measures(*n);
+    parse_measures(*n, study);
   } else {
     study.measures.add(Measure::error);
   }
   if (const Node* n = root.find("spectrum")) study.spectrum = parse_spectrum(*n);
-  if (const Node* n = root.find("images")) study.images = parse_images(*n);
-  study.scenes = parse_scenes(root, file, study.text);
+  if (const Node* n = root.find("images")) study.images = images_of(*n);
+  parse_scenes(root, file, study);
   return study;
 }
 

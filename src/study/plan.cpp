@@ -1,6 +1,10 @@
 // From a study to the list of its cases.
 #include <fmt/format.h>
 
+#include <numeric>
+#include <set>
+#include <utility>
+
 #include "core/error.h"
 #include "engine/render.h"
 #include "engine/samples.h"
@@ -13,15 +17,11 @@ namespace moire {
 
 namespace {
 
-// Throws where the pattern cannot have n samples per pixel in the layout.
-void require_samples(const Study& study, const PatternChoice& pattern, Layout layout, int n) {
-  if (layout == Layout::pixel) {
-    // Making one finds what the count alone does not say, such as a bank of point sets that memory cannot hold.
-    Pattern(pattern, n, Draw{study.seed, 0});
-    return;
-  }
-  std::vector<Grid> grids;
-  for (const NamedScene& scene : study.scenes) grids.push_back(scene.image.grid());
+// Throws where the pattern cannot have n samples per pixel of the scene in the layout, or no time where it needs one.
+void require_samples(const Study& study, const NamedScene& scene, const PatternChoice& pattern, Layout layout, int n) {
+  if (scene.image.moves()) pattern.require_time();
+  if (layout == Layout::pixel) return;
+  std::vector<Grid> grids = {scene.image.grid()};
   if (study.measures.has(Measure::flat_field)) grids.push_back(kFlatField);
   for (const Grid grid : grids) {
     for (const Filter& filter : study.filters) {
@@ -30,53 +30,83 @@ void require_samples(const Study& study, const PatternChoice& pattern, Layout la
   }
 }
 
+// Rows of a scene; at most kMaxRows + 1.
+std::uint64_t rows_of(const Study& study, std::uint32_t scene, const SceneCases& cases) {
+  std::uint64_t rows = 0;
+  for (const std::uint32_t pattern : cases.patterns) rows += trials_of(study, scene, pattern);
+  for (const std::size_t factor :
+       {cases.layouts.size(), cases.spp.size(), study.filters.size(), study.estimators.size()}) {
+    // Compared before it is multiplied, so that nothing overflows.
+    if (factor != 0 && rows > kMaxRows / factor) return kMaxRows + 1;
+    rows *= factor;
+  }
+  return rows;
+}
+
 }  // namespace
 
-std::uint32_t trials_of(const Study& study, const PatternChoice& pattern) {
-  return pattern.varies() ? static_cast<std::uint32_t>(study.trials) : 1;
+SceneCases all_cases(const Study& study) {
+  const auto indices = [](std::size_t n) {
+    std::vector<std::uint32_t> all(n);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  };
+  return {indices(study.patterns.size()), indices(study.spp.size()), indices(study.layouts.size())};
+}
+
+SceneCases cases_of(const Study& study, std::size_t scene) {
+  return study.scene_cases.empty() ? all_cases(study) : study.scene_cases[scene];
+}
+
+bool varies(const Study& study, std::uint32_t scene, std::uint32_t pattern) {
+  return study.patterns[pattern].varies(study.scenes[scene].image.moves());
+}
+
+std::uint32_t trials_of(const Study& study, std::uint32_t scene, std::uint32_t pattern) {
+  return varies(study, scene, pattern) ? static_cast<std::uint32_t>(study.trials) : 1;
 }
 
 std::vector<Case> plan(const Study& study) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> made;
   std::uint64_t rows = 0;
-  for (const PatternChoice& pattern : study.patterns) {
-    for (const Layout layout : study.layouts) {
-      for (const int n : study.spp) require_samples(study, pattern, layout, n);
+  for (std::uint32_t i = 0; i < study.scenes.size(); ++i) {
+    const SceneCases of = cases_of(study, i);
+    for (const std::uint32_t pattern : of.patterns) {
+      for (const std::uint32_t spp : of.spp) {
+        // Making one finds what the count alone does not say, such as a bank of point sets that memory cannot hold.
+        if (made.emplace(pattern, spp).second) {
+          study.patterns[pattern].require_count(study.spp[spp]);
+          Pattern(study.patterns[pattern], study.spp[spp], Draw{study.seed, 0});
+          for (const DiscrepancyChoice& d : study.discrepancies) d.require(study.spp[spp], 2);
+        }
+        for (const std::uint32_t layout : of.layouts) {
+          require_samples(study, study.scenes[i], study.patterns[pattern], study.layouts[layout], study.spp[spp]);
+        }
+      }
     }
-    rows += trials_of(study, pattern);
+    rows += rows_of(study, i, of);
+    if (rows > kMaxRows) {
+      throw Error("study", fmt::format("the plan has more than {} rows; name fewer scenes, patterns, spp, filters or "
+                                       "trials",
+                                       kMaxRows));
+    }
   }
   check_file_names(study);
-  if (study.measures.has(Measure::spectrum)) {
-    for (const NamedScene& scene : study.scenes) {
-      const Grid grid = scene.image.grid();
-      if (has_spectrum(grid)) continue;
-      throw Error("measures", fmt::format("scene \"{}\" has {} x {} pixels, too many for a spectrum; give at most {} "
-                                          "pixels, and {} to a side, or leave out \"spectrum\"",
-                                          scene.name, grid.width, grid.height, kMaxSpectrumPixels, kMaxSpectrumSide));
-    }
-  }
+  require_spectra(study);
   for (const NamedScene& scene : study.scenes) {
     for (const Filter& filter : study.filters) {
       for (const int n : study.spp) require_renderable(scene.image.grid(), filter, n, "scene \"" + scene.name + "\"");
     }
   }
-  // Each factor is compared before it is multiplied, so that nothing overflows.
-  for (const std::size_t factor :
-       {study.scenes.size(), study.layouts.size(), study.spp.size(), study.filters.size(), study.estimators.size()}) {
-    if (factor != 0 && rows > kMaxRows / factor) {
-      throw Error("study", fmt::format("the plan has more than {} rows; name fewer scenes, patterns, spp, filters or "
-                                       "trials",
-                                       kMaxRows));
-    }
-    rows *= factor;
-  }
   std::vector<Case> cases;
   cases.reserve(rows);
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
   for (std::uint32_t scene = 0; scene < size(study.scenes); ++scene) {
-    for (std::uint32_t layout = 0; layout < size(study.layouts); ++layout) {
-      for (std::uint32_t pattern = 0; pattern < size(study.patterns); ++pattern) {
-        const std::uint32_t trials = trials_of(study, study.patterns[pattern]);
-        for (std::uint32_t spp = 0; spp < size(study.spp); ++spp) {
+    const SceneCases of = cases_of(study, scene);
+    for (const std::uint32_t layout : of.layouts) {
+      for (const std::uint32_t pattern : of.patterns) {
+        const std::uint32_t trials = trials_of(study, scene, pattern);
+        for (const std::uint32_t spp : of.spp) {
           for (std::uint32_t filter = 0; filter < size(study.filters); ++filter) {
             for (std::uint32_t estimator = 0; estimator < size(study.estimators); ++estimator) {
               for (std::uint32_t trial = 0; trial < trials; ++trial) {

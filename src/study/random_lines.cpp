@@ -7,7 +7,7 @@
 
 namespace moire {
 
-RandomLine random_line(LineLaw law, std::uint64_t seed, std::uint32_t index, Grid grid) {
+RandomLine random_line(EdgeLaw law, std::uint64_t seed, std::uint32_t index, Grid grid) {
   const Key key = pixel_key(draw_hash(seed, 0), {});
   const Words direction = hash(key, index, Axis::line, 0), offset = hash(key, index, Axis::line, 1);
   const double width = grid.width, height = grid.height;
@@ -15,7 +15,7 @@ RandomLine random_line(LineLaw law, std::uint64_t seed, std::uint32_t index, Gri
   // With the normal n the image is w = width |nx| + height |ny| wide, and a density proportional to w is a mixture: of
   // |nx| with weight `width` and of |ny| with weight `height`. Where the angle's density is |cos|, the sine is uniform.
   const bool by_width = unit(direction.a, direction.b) * (width + height) < width;
-  const double sine = law == LineLaw::isotropic ? 2 * unit(direction.c, direction.d) - 1 : 0;
+  const double sine = law == EdgeLaw::isotropic ? 2 * unit(direction.c, direction.d) - 1 : 0;
   const double cosine = std::copysign(std::sqrt((1 - sine) * (1 + sine)), (offset.c & 1) == 0 ? 1.0 : -1.0);
   const Vec2 n = by_width ? Vec2{cosine, sine} : Vec2{sine, cosine};
 

@@ -15,9 +15,9 @@ namespace moire {
 // proportional to the width of the image seen along the line, |cos| + |sin| for a square; the offset is uniform over
 // that width. (The generator that section 5 of the paper prints is not isotropic.)
 // axis-aligned: the same with the normals (1, 0), (-1, 0), (0, 1) and (0, -1) alone.
-enum class LineLaw : std::uint8_t { isotropic, axis_aligned };
+enum class EdgeLaw : std::uint8_t { isotropic, axis_aligned };
 
-inline constexpr std::string_view kLineLaws[] = {"isotropic", "axis-aligned"};  // by LineLaw
+inline constexpr std::string_view kEdgeLaws[] = {"isotropic", "axis-aligned"};  // by EdgeLaw
 
 struct RandomLine {
   Vec2 through;  // pixels, a point of the line within the image's circumscribed circle
@@ -26,6 +26,6 @@ struct RandomLine {
 
 // Line `index` of the sequence that (law, seed) names; it hits the image. A hash: line 7 is the same however many are
 // drawn. No number is shared with any sampling pattern.
-RandomLine random_line(LineLaw law, std::uint64_t seed, std::uint32_t index, Grid grid);
+RandomLine random_line(EdgeLaw law, std::uint64_t seed, std::uint32_t index, Grid grid);
 
 }  // namespace moire

@@ -96,13 +96,16 @@ struct Batch {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Truth> truths;  // by scene and filter
 };
 
-// Takes scenes from `first` on, at least one, until the batch is full or the run is to stop. Scenes and filters without
-// a case that is due or an image to make are left out.
+// Takes scenes from `first` on, at least one, until the batch is full, with active pixels or with spectra under way, or
+// the run is to stop. Scenes and filters without a case that is due or an image to make are left out.
 Batch make_batch(const Study& study, std::uint32_t first, const Schedule& schedule, const Observer& observer) {
   Batch batch;
-  std::int64_t pixels = 0;
-  for (batch.end = first; batch.end < study.scenes.size() && (batch.end == first || pixels < kBatchPixels);
-       ++batch.end) {
+  std::int64_t pixels = 0, spectra = 0;
+  const auto has_room = [&] {
+    if (study.measures.has(Measure::spectrum)) spectra += spectrum_bytes(study, batch.end);
+    return batch.end == first || (pixels < kBatchPixels && spectra <= kMaxSpectrumBytes);
+  };
+  for (batch.end = first; batch.end < study.scenes.size() && has_room(); ++batch.end) {
     for (std::uint32_t filter = 0; filter < study.filters.size(); ++filter) {
       const bool image = observer.exact_image && study.images != Images::none &&
                          !(observer.has_exact_image && observer.has_exact_image(batch.end, filter));
@@ -219,7 +222,7 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
     for (const std::size_t index : order) {
       if (stopped()) break;
       const Case& c = cases[index];
-      const PatternChoice& choice = study.patterns[c.pattern];
+      const std::uint32_t trials = trials_of(study, c.scene, c.pattern);
       const bool same_count = previous != nullptr && previous->pattern == c.pattern && previous->spp == c.spp;
       if (!same_count) {
         moments.clear();
@@ -231,8 +234,8 @@ Results run(const Study& study, const std::vector<Case>& cases, const Observer& 
       CaseResult result = run_case(study, c, samples, maker.time_ns(), truth);
       optional.add(c, maker, truth, result);
       if (schedule.moments[index]) {
-        moments.add(c, trials_of(study, choice), result);
-        const std::optional<Spectra> spectra = noise.add(c, trials_of(study, choice), truth, result);
+        moments.add(c, trials, result);
+        const std::optional<Spectra> spectra = noise.add(c, trials, truth, result);
         if (spectra && observer.spectra && study.images != Images::none) observer.spectra(c, *spectra);
       }
       Row& row = rows[index];

@@ -26,11 +26,12 @@ Samples SampleMaker::samples(const Case& c, Grid grid) {
     return *pattern_;
   }
   const int apron = study_.filters[c.filter].apron();
-  const std::tuple size(grid.width, grid.height, apron);
+  const bool with_time = study_.scenes[c.scene].image.moves();
+  const std::tuple size(grid.width, grid.height, apron, with_time);
   auto known = areas_.find(size);
   if (known == areas_.end()) {
     const Stopwatch time;
-    AreaPoints points(choice, grid, apron, spp, draw);
+    AreaPoints points(choice, grid, apron, spp, draw, with_time);
     known = areas_.emplace(size, Timed{std::move(points), time.nanoseconds()}).first;
   }
   time_ns_ = known->second.time_ns;

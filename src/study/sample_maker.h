@@ -32,7 +32,7 @@ class SampleMaker {
   std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> made_for_{};  // pattern, spp, trial
   std::optional<Pattern> pattern_;
   std::int64_t pattern_ns_ = 0, time_ns_ = 0;
-  std::map<std::tuple<int, int, int>, Timed> areas_;  // by width, height, apron
+  std::map<std::tuple<int, int, int, bool>, Timed> areas_;  // by width, height, apron and whether with times
 };
 
 }  // namespace moire

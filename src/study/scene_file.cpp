@@ -141,7 +141,7 @@ TestImage make_image(const TestImageInfo& info, const Given& given, const Node& 
 }
 
 struct Lines {
-  LineLaw law = LineLaw::isotropic;
+  EdgeLaw law = EdgeLaw::isotropic;
   std::uint32_t count = 0;
   std::uint64_t seed = 1;
 };
@@ -166,10 +166,10 @@ Lines lines_of(const Node& node, std::size_t limit) {
     return *found;
   };
   const Node& law = member("law");
-  const auto known = std::find(std::begin(kLineLaws), std::end(kLineLaws), text_of(law, "law"));
-  if (known == std::end(kLineLaws)) throw Error(law.place, unknown_name("law of lines", law.text, kLineLaws));
+  const auto known = std::find(std::begin(kEdgeLaws), std::end(kEdgeLaws), text_of(law, "law"));
+  if (known == std::end(kEdgeLaws)) throw Error(law.place, unknown_name("law of lines", law.text, kEdgeLaws));
   Lines lines;
-  lines.law = static_cast<LineLaw>(known - std::begin(kLineLaws));
+  lines.law = static_cast<EdgeLaw>(known - std::begin(kEdgeLaws));
   lines.count = static_cast<std::uint32_t>(integer_of(member("count"), "count", 1, static_cast<std::int64_t>(limit)));
   if (const Node* seed = node.find("seed")) {
     lines.seed = static_cast<std::uint64_t>(integer_of(*seed, "seed", 0, std::numeric_limits<std::int64_t>::max()));

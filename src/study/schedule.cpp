@@ -16,7 +16,7 @@ Schedule make_schedule(const Study& study, const std::vector<Case>& cases, const
   s.needs_truth.resize(study.scenes.size() * study.filters.size());
   // The trials of a case lie together in the plan.
   for (std::size_t i = 0; i < n;) {
-    const std::size_t last = i + trials_of(study, study.patterns[cases[i].pattern]) - 1;
+    const std::size_t last = i + trials_of(study, cases[i].scene, cases[i].pattern) - 1;
     const bool spectra = observer.spectra && study.measures.has(Measure::spectrum) && study.images != Images::none &&
                          !(observer.has_spectra && observer.has_spectra(cases[last]));
     const bool whole = !is_finished(last) || spectra;

@@ -13,6 +13,7 @@
 #include "measure/contrast_sensitivity.h"
 #include "measure/spectrum.h"
 #include "patterns/pattern.h"
+#include "study/discrepancy_measure.h"
 #include "study/measures.h"
 #include "study/scene_file.h"
 #include "testimages/testimage.h"
@@ -40,6 +41,11 @@ struct SpectrumSettings {
 // Of which cases the images are kept.
 enum class Images : std::uint8_t { none, first_trial, all };
 
+// Which of the study's lists a scene goes with: indices into them, all of them unless its table says otherwise.
+struct SceneCases {
+  std::vector<std::uint32_t> patterns, spp, layouts;
+};
+
 // The defaults are those of a study file. Patterns and scenes have none; spp, filters and estimators are filled in by
 // parse_study: 1, 4, 16, 64 and 256; box; ratio; error.
 struct Study {
@@ -53,17 +59,25 @@ struct Study {
   std::vector<Filter> filters;
   std::vector<EstimatorChoice> estimators;
   MeasureSet measures;
+  std::vector<DiscrepancyChoice> discrepancies;  // of the patterns' sets, beside the errors
   SpectrumSettings spectrum;
   Images images = Images::first_trial;
   std::vector<NamedScene> scenes;
+  std::vector<SceneCases> scene_cases;  // of each scene; none at all: every scene with everything
 };
 
 // Reads a study. `file` is what messages call it and the folder that `file = "scene.toml"` starts from; `stem` is the
 // default name. Throws Error with file:line:column.
 Study parse_study(std::string_view text, const std::string& file, const std::string& stem);
 
-// Trials that are run with the pattern: the study's, or one where its points do not vary.
-std::uint32_t trials_of(const Study& study, const PatternChoice& pattern);
+// Everything, and what the scene goes with.
+SceneCases all_cases(const Study& study);
+SceneCases cases_of(const Study& study, std::size_t scene);
+
+// Whether the pattern's points differ from trial to trial on the scene: of moving ones their times, too.
+bool varies(const Study& study, std::uint32_t scene, std::uint32_t pattern);
+// Trials that are run of them: the study's, or one.
+std::uint32_t trials_of(const Study& study, std::uint32_t scene, std::uint32_t pattern);
 
 // One image to compute: indices into the study's lists, and the trial.
 struct Case {

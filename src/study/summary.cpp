@@ -9,6 +9,8 @@
 #include "core/args.h"
 #include "measure/statistics.h"
 #include "study/columns.h"
+#include "study/discrepancy_correlation.h"
+#include "study/discrepancy_measure.h"
 #include "study/filter_ranking.h"
 #include "study/noise_ranking.h"
 #include "study/scene_file.h"
@@ -193,6 +195,27 @@ void copy_key(const Case& c, const std::string_view (&names)[n], Row& to) {
   if (c.family) to.set("scene", std::string(scene_family(c.rows.front()->text("scene"))));
 }
 
+// The ratio of hit_pixels.h; a cluster is a trial, or a line with all its trials.
+void set_edge_ratio(Row& to, const Case& c) {
+  std::vector<double> errors, discrepancies;
+  std::int64_t last = -1;
+  for (const Row* row : c.rows) {
+    const double pixels = row->number("hit_pixels");
+    if (!(pixels > 0)) continue;
+    const std::int64_t line = place_of(*row).first;
+    if (!c.family || line != last) {
+      errors.push_back(0);
+      discrepancies.push_back(0);
+    }
+    last = line;
+    errors.back() += pixels * row->number("hit_mse");
+    discrepancies.back() += pixels * row->number("hit_edge_l2_sq");
+  }
+  const Ratio ratio = ratio_of_sums(errors, discrepancies);
+  set_finite(to, "edge_ratio", ratio.value);
+  set_interval(to, "edge_ratio", ratio.interval);
+}
+
 // The columns of optional_measures.h, where the rows have them.
 void set_optional(Row& row, const Case& c) {
   const auto has = [&](const std::string& name) { return c.rows.front()->find(name) != nullptr; };
@@ -208,6 +231,16 @@ void set_optional(Row& row, const Case& c) {
     for (const Row* x : c.rows) squares.push_back(x->number(name) * x->number(name));
     set_finite(row, name, rms_over_trials(squares));
   }
+  for (const DiscrepancyInfo& info : discrepancies()) {
+    for (const bool with_time : {false, true}) {
+      const std::string name = discrepancy_column(info, with_time);
+      if (!has(name)) continue;
+      std::vector<double> squares;
+      for (const Row* x : c.rows) squares.push_back(x->number(name) * x->number(name));
+      set_finite(row, name, rms_over_trials(squares));
+    }
+  }
+  if (has("hit_pixels")) set_edge_ratio(row, c);
   if (!c.family && c.rows.back()->find("spectrum_window") != nullptr) {
     for (const std::string_view name : kSpectrumColumns) copy_cell(*c.rows.back(), name, row, name);
   }
@@ -328,6 +361,7 @@ Summary summarize(const Table& rows) {
   }
   summary.filters = rank_filters(rows);
   summary.noise = rank_noise(summary.rows);
+  summary.correlations = correlate_discrepancies(summary.rows);
   return summary;
 }
 

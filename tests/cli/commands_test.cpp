@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -56,6 +57,10 @@ json without_times(json row) {
   return row;
 }
 
+// The patterns that have a time.
+constexpr auto kTimed =
+    std::to_array<std::string_view>({"random", "jittered-random-time", "scan-time", "zaremba", "hammersley"});
+
 // Names in a folder, sorted.
 std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -95,7 +100,10 @@ TEST_SUITE("cli") {
         CHECK(!entry.at("title").get<std::string>().empty());
         CHECK(entry.at("cite").is_string());
         CHECK(entry.contains("dims") == (std::string(what) == "patterns"));
-        if (entry.contains("dims")) CHECK(entry["dims"] == json::array({2}));
+        if (entry.contains("dims")) {
+          const bool timed = std::find(kTimed.begin(), kTimed.end(), entry["name"].get<std::string>()) != kTimed.end();
+          CHECK(entry["dims"] == (timed ? json::array({2, 3}) : json::array({2})));
+        }
         for (const json& param : entry.at("params")) {
           CHECK(param.size() == 6);
           CHECK(param.at("name").is_string());
@@ -165,6 +173,34 @@ TEST_SUITE("cli") {
     CHECK(run_ok({"points", "random", "--n", "8", "--seed", "1", "--trial", "0"}).out == one);
     CHECK(run_ok({"points", "random", "--n", "8", "--seed", "2"}).out != one);
     CHECK(run_ok({"points", "random", "--n", "8", "--trial", "1"}).out != one);
+  }
+
+  TEST_CASE("points in 3 dimensions are the same points with a time, and only patterns that have one give them") {
+    // psi_3(i): digit k, counted from 0, becomes (a_k + k) mod 3, also the leading zeros: 5/26, 5/26 + 1/3, 5/26 + 2/3.
+    const std::vector<std::string> lines = lines_of(run_ok({"points", "zaremba", "--n", "3", "--dims", "3"}).out);
+    CHECK(lines == std::vector<std::string>{"x,y,t", "0,0.33333333333333331,0.19230769230769232",
+                                            "0.33333333333333331,0.83333333333333337,0.52564102564102566",
+                                            "0.66666666666666663,0.083333333333333329,0.85897435897435892"});
+    for (const std::string_view name : kTimed) {
+      const std::string pattern(name);
+      CAPTURE(pattern);
+      std::vector<std::string> command = {"points", pattern, "--n", "16", "--seed", "3", "--trial", "2"};
+      const std::vector<std::string> flat = lines_of(run_ok(command).out);
+      command.insert(command.end(), {"--dims", "3"});
+      const std::vector<std::string> timed = lines_of(run_ok(command).out);
+      REQUIRE(timed.size() == 17);
+      for (std::size_t i = 1; i < timed.size(); ++i) {
+        const std::vector<std::string> fields = fields_of(timed[i]);
+        REQUIRE(fields.size() == 3);
+        CHECK(fields[0] + "," + fields[1] == flat[i]);
+        CHECK((number_of(fields[2]) >= 0 && number_of(fields[2]) < 1));
+      }
+    }
+    const Outcome refused = run_program({"points", "n-rooks", "--n", "16", "--dims", "3"});
+    CHECK(refused.code == 2);
+    CHECK(refused.out.empty());
+    CHECK(refused.err.starts_with("error: PATTERN: pattern \"n-rooks\" has points in 2 dimensions, without a time"));
+    for (const std::string_view name : kTimed) CHECK(refused.err.find(name) != std::string::npos);
   }
 
   TEST_CASE("exact values of any pixels, also far outside the image, are CSV with their bounds") {

@@ -84,6 +84,19 @@ TEST_SUITE("unit") {
     CHECK(is_at(refusal("x,y,t\n0.1,0.2\n"), "p.txt:2:5"));
   }
 
+  TEST_CASE("a byte order mark at the beginning of the text is skipped, and is no text anywhere else") {
+    const std::string mark = "\xEF\xBB\xBF";
+    for (const std::string text : {"0.1,0.2\n", "x,y\n0.1,0.2\n", "# a set\n0.1,0.2", "\r\n0.1 0.2\r\n"}) {
+      for (const std::size_t step : {std::size_t{1}, std::size_t{2}, std::size_t{1000}}) {
+        REQUIRE(parse(mark + text, step).size() == 1);
+        CHECK(parse(mark + text, step)[0].x == Numbers{0.1});
+      }
+    }
+    CHECK(is_at(refusal("0.1,0.2\n" + mark + "0.1,0.2\n"), "p.txt:2:1"));
+    CHECK(is_at(refusal(mark + mark + "0.1,0.2\n"), "p.txt:1:1"));
+    CHECK(contains(refusal(mark), "has no points"));
+  }
+
   TEST_CASE("what is no point of the unit square is refused with line and column") {
     for (const char* bad : {"1", "1.0", "-1e-9", "2", "nan", "-nan", "inf", "-inf", "0.99999999999999999999", "1e3"}) {
       CAPTURE(bad);

@@ -16,7 +16,7 @@ using namespace moire;
 namespace {
 
 constexpr Grid kGrid{24, 16};
-constexpr LineLaw kLaws[] = {LineLaw::isotropic, LineLaw::axis_aligned};
+constexpr EdgeLaw kLaws[] = {EdgeLaw::isotropic, EdgeLaw::axis_aligned};
 
 double side(const RandomLine& line, Vec2 p) {
   return (p.x - line.through.x) * line.normal.x + (p.y - line.through.y) * line.normal.y;
@@ -42,12 +42,12 @@ TEST_SUITE("unit") {
     const Vec2 segments[][2] = {{{12, 8}, {14, 8}},      {{0.5, 0.5}, {0.5, 3.5}}, {{20, 12}, {23, 15}},
                                 {{1, 15}, {9, 10}},      {{3, 3}, {21, 3.5}},      {{23.2, 0.1}, {23.9, 0.8}},
                                 {{11.5, 2}, {11.5, 14}}, {{0, 0}, {24, 16}}};
-    for (const LineLaw law : kLaws) {
+    for (const EdgeLaw law : kLaws) {
       std::vector<RandomLine> lines;
       for (std::uint32_t i = 0; i < kLines; ++i) lines.push_back(random_line(law, 7, i, kGrid));
       for (const auto& [a, b] : segments) {
         const double dx = std::fabs(a.x - b.x), dy = std::fabs(a.y - b.y);
-        const double size = law == LineLaw::isotropic ? std::hypot(dx, dy) : dx + dy;
+        const double size = law == EdgeLaw::isotropic ? std::hypot(dx, dy) : dx + dy;
         const double expected = size / (kGrid.width + kGrid.height);
         int hits = 0;
         for (const RandomLine& line : lines) hits += separates(line, a, b);
@@ -60,7 +60,7 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("each line hits the image, has a normal of length 1, and both sides are inside equally often") {
-    for (const LineLaw law : kLaws) {
+    for (const EdgeLaw law : kLaws) {
       std::set<double> normals;
       int up = 0, right = 0;
       for (std::uint32_t i = 0; i < 10'000; ++i) {
@@ -76,17 +76,17 @@ TEST_SUITE("unit") {
         CHECK(high > 0);
         right += line.normal.x > 0 || (line.normal.x == 0 && i % 2 == 0);
         up += line.normal.y > 0 || (line.normal.y == 0 && i % 2 == 0);
-        if (law == LineLaw::axis_aligned) normals.insert(line.normal.x + 2 * line.normal.y);
+        if (law == EdgeLaw::axis_aligned) normals.insert(line.normal.x + 2 * line.normal.y);
       }
       // 4 standard errors of 10,000 fair coins.
       CHECK(std::abs(right - 5000) <= 200);
       CHECK(std::abs(up - 5000) <= 200);
-      if (law == LineLaw::axis_aligned) CHECK(normals == std::set<double>{-2, -1, 1, 2});
+      if (law == EdgeLaw::axis_aligned) CHECK(normals == std::set<double>{-2, -1, 1, 2});
     }
   }
 
   TEST_CASE("a line depends on its seed and number alone") {
-    for (const LineLaw law : kLaws) {
+    for (const EdgeLaw law : kLaws) {
       std::set<double> seen;
       for (const std::uint64_t seed : {0, 1, 2}) {
         for (std::uint32_t i = 0; i < 100; ++i) {
@@ -115,7 +115,7 @@ TEST_SUITE("unit") {
       CHECK(three[i].image.grid() == kGrid);
       CHECK(three[i].image.stored() == five[i].image.stored());
       CHECK(three[i].image.stored() != other[i].image.stored());
-      const RandomLine line = random_line(LineLaw::isotropic, 1, i, kGrid);
+      const RandomLine line = random_line(EdgeLaw::isotropic, 1, i, kGrid);
       const StoredDoubles want = {{"through", {line.through.x, line.through.y}},
                                   {"normal", {line.normal.x, line.normal.y}}};
       CHECK(three[i].image.stored() == want);

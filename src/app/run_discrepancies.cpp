@@ -1,0 +1,150 @@
+// A study of discrepancies: its results, pictures and report.
+#include "app/run_discrepancies.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "app/run_folder.h"
+#include "core/parallel.h"
+#include "measure/discrepancy/test_lines.h"
+#include "reports/csv.h"
+#include "reports/discrepancy_report.h"
+#include "reports/file.h"
+#include "reports/point_plot.h"
+#include "study/discrepancy_run.h"
+#include "study/discrepancy_summary.h"
+#include "study/file_names.h"
+
+namespace moire {
+namespace {
+
+constexpr auto kReports = std::to_array<std::string_view>({"results.csv", "summary.csv", "slopes.csv", "report.md"});
+
+// Larger sets are no dots any more.
+constexpr int kMostDrawn = 2048;
+// Lines of a picture, as in the paper.
+constexpr int kDrawnLines = 100;
+
+std::string points_file(const DiscrepancyStudy& study, const DiscrepancyGroup& group) {
+  const DiscrepancyBlock& block = study.blocks[group.block];
+  return fmt::format("images/points_{}_{}{}.png", file_part(block.patterns[group.pattern].text()), block.n[group.n],
+                     block.dims[group.dims] == 3 ? "_t" : "");
+}
+
+// Whether the group's first set is drawn: the first group with such a set.
+bool is_drawn(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const DiscrepancyGroup& group) {
+  if (!study.images || study.blocks[group.block].n[group.n] > kMostDrawn) return false;
+  const std::string file = points_file(study, group);
+  for (const DiscrepancyGroup& other : plan.groups) {
+    if (points_file(study, other) == file) return other.first_row == group.first_row;
+  }
+  return false;
+}
+
+std::vector<Picture> point_pictures(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
+  std::vector<Picture> pictures;
+  for (const DiscrepancyGroup& group : plan.groups) {
+    if (!is_drawn(study, plan, group)) continue;
+    const DiscrepancyBlock& block = study.blocks[group.block];
+    pictures.emplace_back(fmt::format("`{}`, {} points{}", block.patterns[group.pattern].text(), block.n[group.n],
+                                      block.dims[group.dims] == 3 ? ", time from blue to red" : ""),
+                          points_file(study, group));
+  }
+  return pictures;
+}
+
+// Lines as the study's edge discrepancies draw them, and their duals.
+std::vector<Picture> draw_lines(const DiscrepancyStudy& study, const RunFolder& folder) {
+  std::vector<Picture> pictures;
+  if (!study.images) return pictures;
+  const auto names = [&](std::string_view name) {
+    for (const DiscrepancyBlock& block : study.blocks)
+      for (const DiscrepancyChoice& measure : block.measures)
+        if (measure.info().name == name) return true;
+    return false;
+  };
+  const auto draw = [&](std::string_view measure, LineLaw law, const char* what, const char* file) {
+    if (!names(measure)) return;
+    std::vector<PlotLine> lines;
+    const Key key = pixel_key(draw_hash(study.seed, 0), {});
+    for (std::uint64_t i = 0; i < kDrawnLines; ++i) {
+      const TestLine line = test_line(law, key, i);
+      lines.push_back({line.nx, line.ny, line.c});
+    }
+    write_png(folder.file(file), line_plot(lines));
+    pictures.emplace_back(
+        fmt::format("{} {} lines and their duals: y = m x + b as the point (m, b)", kDrawnLines, what), file);
+  };
+  draw("edge-l2", LineLaw::isotropic, "isotropic", "images/lines_isotropic.png");
+  draw("edge-l2-printed", LineLaw::printed, "of the paper's", "images/lines_printed.png");
+  return pictures;
+}
+
+// The key of a row, as describe() writes it.
+std::string key_of(const Row& row) {
+  return fmt::format("{} {:.0f} {:.0f} {} {:.0f}", row.text("pattern"), row.number("n"), row.number("dims"),
+                     row.text("measure"), row.number("trial"));
+}
+
+std::vector<std::string> keys_of(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
+  std::vector<std::string> keys;
+  keys.reserve(plan.rows);
+  for (const DiscrepancyGroup& group : plan.groups)
+    for (std::uint32_t m = 0; m < study.blocks[group.block].measures.size(); ++m)
+      for (std::uint32_t t = 0; t < group.trials; ++t) keys.push_back(describe(study, group, m, t));
+  return keys;
+}
+
+}  // namespace
+
+Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
+  const DiscrepancyPlan planned = plan(study);
+  PlannedRows rows{study.seed, keys_of(study, planned), key_of};
+  if (options.dry_run) {
+    print(fmt::format("# {} rows: pattern n dims measure trial\n", planned.rows));
+    for (const std::string& key : rows.keys) print(key + "\n");
+    return Exit::ok;
+  }
+  const ThreadLimit limit(options.threads);
+  RunFolder folder(options, {study.name, study.text}, rows, kReports, study.images);
+
+  watch_interrupts();
+  Results outcome;
+  {
+    Progress progress;
+    DiscrepancyObserver observer;
+    observer.row = [&](const Row& row) { folder.append(row); };
+    observer.first_set = [&](const DiscrepancyGroup& group, const PointView& set) {
+      if (is_drawn(study, planned, group)) {
+        write_png(folder.file(points_file(study, group)), point_plot(set.x, set.y, set.t));
+      }
+    };
+    observer.progress = [&](std::size_t done, std::size_t due) {
+      progress.step(done, due, static_cast<double>(done) / static_cast<double>(due));
+    };
+    observer.stop = interrupted;
+    outcome = run(study, planned, observer, folder.take_rows());
+  }
+  folder.finish(outcome.rows, outcome.complete);
+
+  const DiscrepancySummary summary = summarize(study, planned, outcome.rows);
+  write_whole(folder.file("results.csv"), csv(outcome.rows));
+  write_whole(folder.file("summary.csv"), csv(summary.rows));
+  write_whole(folder.file("slopes.csv"), csv(summary.slopes));
+  std::vector<Picture> pictures = point_pictures(study, planned);
+  for (Picture& picture : draw_lines(study, folder)) pictures.push_back(std::move(picture));
+  const std::string report = folder.file("report.md");
+  write_whole(report, discrepancy_markdown(study.name, summary, pictures));
+  print(discrepancy_text(summary, ::isatty(STDOUT_FILENO) != 0));
+  print("report: " + report + "\n");
+  return Exit::ok;
+}
+
+}  // namespace moire

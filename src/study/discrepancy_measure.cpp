@@ -1,0 +1,190 @@
+// The catalogue of discrepancies.
+#include "study/discrepancy_measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "core/names.h"
+#include "measure/discrepancy/disk_l2.h"
+#include "measure/discrepancy/edge_l2.h"
+#include "measure/discrepancy/edge_linf.h"
+#include "measure/discrepancy/expected.h"
+#include "measure/discrepancy/monte_carlo.h"
+#include "measure/discrepancy/star_l2.h"
+#include "measure/discrepancy/star_linf.h"
+
+namespace moire {
+namespace {
+
+constexpr Param kMethod = choice("method", "closed-form", "closed-form|monte-carlo",
+                                 "the mean over all tests by its closed form, or over random ones");
+constexpr Param kTests = integer("tests", 10000, 1, 1e9, "random tests per set, for method=monte-carlo");
+constexpr Param kCounted = choice("counted", "all", "all|without-first",
+                                  "without-first leaves out the set's first point but divides by N, which is what "
+                                  "Mitchell's table 4 seems to hold; for method=monte-carlo");
+constexpr Param kSquareParams[] = {kMethod, kTests, kCounted};
+constexpr Param kDiskParams[] = {number("radius", 0, 0, 0.5, "of all disks; 0: uniformly distributed from 0 to 1/2"),
+                                 kMethod, kTests, kCounted};
+
+// What most_points allow: 2^24 where time is N log N, 2^18 for all pairs, less where pairs are dear.
+constexpr DiscrepancyInfo kDiscrepancies[] = {
+    {"star-l2", "T over boxes [0, x) x [0, y), in three dimensions x [0, t)", "Warnock 1972; Heinrich 1996", "star_l2",
+     true, true, std::int64_t{1} << 24, kSquareParams},
+    {"star-linf",
+     "D over boxes [0, x) x [0, y): the star discrepancy",
+     "Niederreiter 1978",
+     "star_linf",
+     false,
+     false,
+     std::int64_t{1} << 18,
+     {}},
+    {"edge-l2", "T over half-planes, their lines isotropic: all positions and directions alike",
+     "Mitchell 1992, with the invariant measure of lines", "edge_l2", true, false, std::int64_t{1} << 18,
+     kSquareParams},
+    {"edge-l2-printed", "T over half-planes, their lines as the paper's generator draws them", "Mitchell 1992",
+     "edge_l2_printed", true, false, std::int64_t{1} << 18, kSquareParams},
+    {"edge-linf",
+     "D over half-planes",
+     "Dobkin, Eppstein and Mitchell 1996",
+     "edge_linf",
+     false,
+     false,
+     std::int64_t{1} << 15,
+     {}},
+    {"disk-l2", "T over disks on the unit torus, centres uniform", "Mitchell 1992", "disk_l2", true, false,
+     std::int64_t{1} << 18, kDiskParams},
+};
+
+std::vector<std::string_view> names() {
+  std::vector<std::string_view> names;
+  for (const DiscrepancyInfo& info : kDiscrepancies) names.push_back(info.name);
+  return names;
+}
+
+const DiscrepancyInfo& find_discrepancy(std::string_view name, const std::string& place) {
+  for (const DiscrepancyInfo& info : kDiscrepancies) {
+    if (info.name == name) return info;
+  }
+  throw Error(place, unknown_name("discrepancy", name, names()));
+}
+
+// The parameters given, and those defaults that the discrepancy knows and that are not given.
+Given with_defaults(const DiscrepancyInfo& info, Given given, const Given& defaults) {
+  for (const auto& [key, value] : defaults) {
+    const auto is_key = [&key = key](const auto& known) { return known.first == key; };
+    if (std::any_of(given.begin(), given.end(), is_key)) continue;
+    if (std::any_of(info.params.begin(), info.params.end(), [&key = key](const Param& p) { return p.name == key; })) {
+      given.emplace_back(key, value);
+    }
+  }
+  return given;
+}
+
+LineLaw line_law(std::string_view name) { return name == "edge-l2" ? LineLaw::isotropic : LineLaw::printed; }
+
+}  // namespace
+
+std::span<const DiscrepancyInfo> discrepancies() { return kDiscrepancies; }
+
+bool is_discrepancy(std::string_view name) {
+  return std::any_of(std::begin(kDiscrepancies), std::end(kDiscrepancies),
+                     [&](const DiscrepancyInfo& info) { return info.name == name; });
+}
+
+std::string discrepancy_column(const DiscrepancyInfo& info, bool with_time) {
+  return std::string(info.column) + (with_time ? "_3d" : "");
+}
+
+DiscrepancyChoice::DiscrepancyChoice(const Spec& spec, const Given& defaults)
+    : info_(&find_discrepancy(spec.name, spec.place)),
+      args_(fmt::format("discrepancy \"{}\"", info_->name), info_->params, with_defaults(*info_, spec.given, defaults),
+            spec.place),
+      text_(spec.text) {
+  if (is_without_first() && !is_monte_carlo()) {
+    throw Error(spec.place, fmt::format("\"{}\" counts without the first point, which has no closed form here; give "
+                                        "method=monte-carlo, too",
+                                        text_));
+  }
+}
+
+bool DiscrepancyChoice::is_monte_carlo() const { return info_->is_square && args_.text("method") == "monte-carlo"; }
+
+std::string_view DiscrepancyChoice::method() const { return info_->is_square ? args_.text("method") : "exact"; }
+
+bool DiscrepancyChoice::is_without_first() const {
+  return info_->is_square && args_.text("counted") == "without-first";
+}
+
+std::int64_t DiscrepancyChoice::tests() const { return args_.integer("tests"); }
+
+std::optional<double> DiscrepancyChoice::radius() const {
+  const double r = args_.number("radius");
+  return r > 0 ? std::optional<double>(r) : std::nullopt;
+}
+
+void DiscrepancyChoice::require(std::int64_t n, int dims) const {
+  if (dims == 3 && !info_->has_3d) {
+    throw Error(args_.place(),
+                fmt::format("\"{}\" is of points in 2 dimensions; star-l2 is the one in 3", info_->name));
+  }
+  if (n > info_->most_points && !is_monte_carlo()) {
+    throw Error(args_.place(), fmt::format("\"{}\" of {} points would take too long; at most {}{}", info_->name, n,
+                                           info_->most_points, info_->is_square ? ", or method=monte-carlo" : ""));
+  }
+  // A random test looks at every point.
+  constexpr double kMostLooks = 0x1p42;
+  if (is_monte_carlo() && static_cast<double>(n) * static_cast<double>(tests()) > kMostLooks) {
+    throw Error(args_.place(), fmt::format("\"{}\": {} tests of {} points would take too long; at most {} tests", text_,
+                                           tests(), n, static_cast<std::int64_t>(kMostLooks / static_cast<double>(n))));
+  }
+}
+
+Discrepancy DiscrepancyChoice::operator()(PointView points, const Key& key) const {
+  const std::string_view name = info_->name;
+  if (!info_->has_3d) points.t = {};
+  if (name == "star-linf") return {star_linf(points)};
+  if (name == "edge-linf") return {edge_linf(points)};
+  if (is_monte_carlo()) {
+    const Counted counted = is_without_first() ? Counted::without_first : Counted::all;
+    const MonteCarlo mean = name == "star-l2"   ? star_l2_monte_carlo(points, tests(), key, counted)
+                            : name == "disk-l2" ? disk_l2_monte_carlo(points, radius(), tests(), key, counted)
+                                                : edge_l2_monte_carlo(points, line_law(name), tests(), key, counted);
+    const double value = std::sqrt(mean.mean_square);
+    return {value, value > 0 ? mean.standard_error / (2 * value) : 0};
+  }
+  const double square = name == "star-l2"   ? star_l2_squared(points)
+                        : name != "disk-l2" ? edge_l2_squared(points, line_law(name))
+                        : radius()          ? disk_l2_squared(points, *radius())
+                                            : disk_l2_squared(points);
+  return {std::sqrt(std::max(0.0, square))};  // its rounding error may be below 0
+}
+
+std::optional<double> DiscrepancyChoice::expected_square(const PatternChoice& pattern, std::int64_t n, int dims) const {
+  if (!info_->is_square || is_without_first()) return std::nullopt;
+  const std::string_view of = pattern.info().name, name = info_->name;
+  const bool edge = name == "edge-l2" || name == "edge-l2-printed";
+  if (of == "random") {
+    if (name == "star-l2") return expected_star_l2_squared_random(n, dims);
+    if (edge) return expected_edge_l2_squared_random(n, line_law(name));
+    return expected_disk_l2_squared_random(n, radius());
+  }
+  // jittered-random-time is jittered where time is not looked at.
+  if ((of == "jittered" && dims == 2) || of == "jittered-random-time") {
+    const auto side = std::llround(std::sqrt(static_cast<double>(n)));
+    if (pattern.args().number("amount") != 1 || side * side != n) return std::nullopt;
+    if (name == "star-l2") return expected_star_l2_squared_jittered(n, dims);
+    if (edge) return expected_edge_l2_squared_jittered(n, line_law(name));
+  }
+  if (of == "n-rooks" && dims == 2) {
+    if (name == "star-l2") return expected_star_l2_squared_n_rooks(n);
+    if (edge) return expected_edge_l2_squared_n_rooks(n, line_law(name));
+  }
+  return std::nullopt;
+}
+
+}  // namespace moire

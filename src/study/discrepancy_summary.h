@@ -1,0 +1,30 @@
+// Rows of a study of discrepancies to means over trials, beside theory and the paper, and to rates of convergence.
+#pragma once
+
+#include "study/discrepancy_study.h"
+#include "study/results.h"
+
+namespace moire {
+
+struct DiscrepancySummary {
+  // One row per pattern, n, dims and measure: the key; method, trials; mean, mean_lo, mean_hi (Student's t), rms,
+  // stderr (of the mean); expected_rms where theory knows the mean square, expected_z; paper, paper_is (mean or rms),
+  // table, paper_z, paper_doubt where the paper has a value. z: the difference over the standard errors of both. No
+  // interval and no z for one trial.
+  Table rows;
+  // One row per pattern, dims and measure with two sizes or more: slope of log rms against log n, slope_lo, slope_hi
+  // (by trials: none for one), n_min, n_max, points; known, why: the exponent as n grows where it is known.
+  Table slopes;
+};
+
+// `rows`: all of the plan, in its order.
+DiscrepancySummary summarize(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Table& rows);
+
+// Mean, root mean square and standard error of the mean (NaN for one value) of a discrepancy over sets.
+struct DiscrepancyMean {
+  double mean = 0, rms = 0, standard_error = 0;
+  double square_error = 0;  // the standard error of the mean square
+};
+DiscrepancyMean mean_over_sets(const std::vector<double>& values);
+
+}  // namespace moire
