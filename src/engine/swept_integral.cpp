@@ -202,20 +202,20 @@ void SweptIntegral::add_wrong_sides(const Rect& extent, double travel, bool stra
 
 // A piece right of the support at all times: the integral of the mean of k(y), by its antiderivative.
 template <class Track>
-void SweptIntegral::add_right(const Track& track, double from, double to, const Rect& extent) {
+void SweptIntegral::add_right(const Track& track, double from, double to, const Rect& extent, const Margin& m) {
   // Inside the window both ends are known to their rounding; one that is farther out is its neighbour's, too.
   const double off = track.off(grid_, 0);
   const SweptPath::Mean a = path_.mean_K(track.y(from), off), b = path_.mean_K(track.y(to), off);
   const double weight = track.direction();
   sum_.add(weight * (b.value - a.value));
   error_ += std::fabs(weight) * (a.error + b.error + 4 * kUnit * (a.top + b.top));
-  // A cut may leave it `miss` inside the support in x, for as long as that takes, or for good.
+  // It may reach into the support in x, for as long as that takes, or for good.
   const Rect window = grid_.window();
-  if (extent.lo.x > window.hi.x + miss_) return;
+  if (extent.lo.x > window.hi.x + m.thick) return;
   const double travel = std::min(2 * (extent.hi.y - extent.lo.y), window.hi.y - window.lo.y);
-  const double time = grid_.motion.x == 0 ? seen() : std::min(1.0, miss_ / std::fabs(grid_.motion.x));
-  const double part = track.degree(kernel_) < 0 ? 1 : std::min(1.0, miss_ / (extent.hi.x - extent.lo.x));
-  const double wrong = (kernel_.jump_max() + 2 * kernel_.slope_max() * miss_) * miss_ + 2 * kernel_.K_error();
+  const double time = grid_.motion.x == 0 ? seen() : std::min(1.0, m.thick / std::fabs(grid_.motion.x));
+  const double part = track.degree(kernel_) < 0 ? 1 : std::min(1.0, m.thick / (extent.hi.x - extent.lo.x));
+  const double wrong = (kernel_.jump_max() + 2 * kernel_.slope_max() * m.thick) * m.thick + 2 * kernel_.K_error();
   error_ += std::fabs(weight) * travel * part * time * wrong * kernel_.k_max();
 }
 
@@ -239,7 +239,7 @@ void SweptIntegral::add_piece(const Track& track, double from, double to, int de
   const bool close = near_line(mean, 2 * miss_);
   const Margin& m = close ? close_ : plain_;
   const Rect extent = piece.extent();
-  if (right) return add_right(track, from, to, extent);
+  if (right) return add_right(track, from, to, extent, m);
   if (depth == 0 || close) {
     // An extreme point makes it twice the extent.
     const double travel = std::min(2 * (extent.hi.y - extent.lo.y), 4 * reach_) * weight;

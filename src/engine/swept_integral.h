@@ -57,7 +57,7 @@ class SweptIntegral {
   template <class Track>
   void add_piece(const Track& track, double from, double to, int depth);
   template <class Track>
-  void add_right(const Track& track, double from, double to, const Rect& extent);
+  void add_right(const Track& track, double from, double to, const Rect& extent, const Margin& m);
   // The share of the time that a path can be in the support.
   double seen() const;
   bool near_line(Vec2 p, double distance) const;

@@ -29,7 +29,7 @@ double SweptGrid::travel() const { return std::max(std::fabs(motion.x), std::fab
 
 double SweptGrid::reach() const { return kernel.radius() + travel(); }
 
-// Places in the window come from Arc::passes(), right to 24 u W and 2^-98 R, and u W for a knot moved back. Corners:
+// Places in the window come from Arc::passes(), right to 24 u W and 2^-98 R, and 2 u W for a knot moved back. Corners:
 //  - near, R <= 4 W: their offset across the path from the centre, from differences below 6.5 W, errs by 50 u W. The
 //    point with that offset is off the circle by 8 u R and its parameter is rounded: 24 u R.
 //  - far: lambda, from the corner along the path, solves lambda^2 + 2 b lambda + c = 0. b = e . (corner - centre) errs
@@ -57,7 +57,9 @@ void ArcTrack::cut(const SweptGrid& grid, std::vector<double>& cuts) const {
     for (const double knot : knots) {
       const double x = knot - at_time * grid.motion.x, y = knot - at_time * grid.motion.y;
       cuts.push_back(arc_.v_of(upright ? y : x));
-      for (const double v : arc_.passes(upright ? x : y)) cuts.push_back(v);
+      const auto passes = arc_.passes(upright ? x : y);  // the first of them along the quarter, which is not asked
+      cuts.push_back(passes[1]);
+      cuts.push_back(passes[2]);
     }
   }
   if (grid.motion.x != 0 && grid.motion.y != 0) {
@@ -103,10 +105,10 @@ void ArcTrack::cut_corner(const SweptGrid& grid, Vec2 corner, std::vector<double
   }
 }
 
-// arc.h: u |coordinate| and 8 u |tau|, and 2 u half for the node itself. On the path, one sum, and 6 u of the motion
-// for times (a cut to 2 u, nodes between cuts to 4 u more) and their products.
+// arc.h: u |coordinate| and 8 u |tau|, and 2 u half for the node itself. On the path, one sum, and 9 u of the motion
+// for times (a cut to 2 u, nodes between cuts to 4 u more), their products and the motion itself.
 double ArcTrack::off(const SweptGrid& grid, double half) const {
-  return kUnit * (2.1 * grid.reach() + 6 * grid.travel() + 11 * half) + 0x1p-98 * arc_.circle.radius;
+  return kUnit * (2.1 * grid.reach() + 9 * grid.travel() + 11 * half) + 0x1p-98 * arc_.circle.radius;
 }
 
 ArcTrack::Piece::Piece(const ArcTrack& track, double from, double to)
@@ -142,7 +144,7 @@ Rect ArcTrack::Piece::extent() const {
 }
 
 // A parameter is a quotient of two differences, right to 3 u of itself and what a knot moved back errs by: 3 u of a way
-// of at most 2 W, and u W. A corner's are products that err by 5 u of 4 W each.
+// of at most 2 W, and 2 u W. A corner's are products that err by 5 u of 4 W each.
 double SegmentTrack::miss(const SweptGrid& grid, const Segment& segment) {
   const bool corners = grid.motion.x != 0 && grid.motion.y != 0;
   return (corners ? 64 : 8) * kUnit * grid.reach() + 2 * segment.doubt;
@@ -173,7 +175,7 @@ void SegmentTrack::cut(const SweptGrid& grid, std::vector<double>& cuts) const {
 // The ends' doubt; three roundings of at most W, one of them of a difference of twice as much but at most half of that
 // is walked; a node to 2 u of the way; and the path as for arcs.
 double SegmentTrack::off(const SweptGrid& grid, double) const {
-  return kUnit * (6 * grid.reach() + 6 * grid.travel()) + segment_.doubt;
+  return kUnit * (6 * grid.reach() + 9 * grid.travel()) + segment_.doubt;
 }
 
 Vec2 SegmentTrack::place(double v) const {
