@@ -140,18 +140,33 @@ void add_section(std::string& out, const Section& section) {
     lines.push_back(std::move(line));
   }
   out += markdown_table(lines);
+  if (!paper) return;
+  double sum = 0;
+  int cells = 0;
+  for (const Row* row : section.rows) {
+    const double z = row->number("paper_z");
+    if (!std::isfinite(z)) continue;
+    sum += z * z;
+    ++cells;
+  }
+  if (cells > 1) out += fmt::format("Sum of z^2 of the paper over {} cells: {:.0f}.\n\n", cells, sum);
 }
 
 void add_slopes(std::string& out, const Table& slopes) {
   if (slopes.empty()) return;
-  out += "## How fast they fall\n\nSlope of log RMS T against log N, with its 95% interval over sets.\n\n";
-  std::vector<std::vector<std::string>> lines{{"measure", "dimensions", "pattern", "N", "slope", "as N grows", ""}};
+  out +=
+      "## How fast they fall\n\nSlope of log RMS T against log N, with its 95% interval over sets. Where sizes have "
+      "different numbers of sets, the "
+      "slope is of as many of each size.\n\n";
+  std::vector<std::vector<std::string>> lines{{"measure", "dimensions", "pattern", "N", "sets", "slope", "theory", ""}};
   for (const Row& row : slopes) {
     lines.push_back({markdown_code(row.text("measure")), number(row.number("dims"), "{:.0f}"),
                      markdown_code(row.text("pattern")),
                      fmt::format("{:.0f} to {:.0f}", row.number("n_min"), row.number("n_max")),
+                     number(row.number("trials"), "{:.0f}"),
                      number(row.number("slope"), "{:.3f}") + interval(row, "slope_lo", "slope_hi", "{:.3f}"),
-                     number(row.number("known"), "{:.2f}"), std::string(row.text("why"))});
+                     number(row.number("known"), "{:.2f}") + (row.text("known_is") == "at best" ? " at best" : ""),
+                     std::string(row.text("why"))});
   }
   out += markdown_table(lines);
 }
@@ -162,8 +177,10 @@ void add_notes(std::string& out, const std::vector<Section>& all) {
       "- T is the root of the mean over all tests (boxes, half-planes, disks) of (fraction of points inside - area)^2; "
       "D is the largest difference. Of a pattern that varies, the mean and the root mean square over its sets are "
       "given: they differ by a few per cent.\n"
-      "- z: the difference over its standard error; of theory, by the mean of T^2. Patterns that do not vary are one "
-      "set, without an interval.\n";
+      "- z: the difference over its standard error; of theory, by the mean of T^2. T^2 is skewed, so that z below -2 "
+      "is "
+      "commoner than above 2 with few sets; patterns and sizes share random numbers, so that their z are not "
+      "independent. Patterns that do not vary are one set, without an interval.\n";
   const bool paper = std::any_of(all.begin(), all.end(), [](const Section& s) { return !table_name(s).empty(); });
   if (!paper) return;
   out +=
@@ -175,8 +192,9 @@ void add_notes(std::string& out, const std::vector<Section>& all) {
       "about .16, and its jittered row more boundary than one disk on the torus can have: probably each test was a set "
       "of some tens of small disks. Here: one disk, centre uniform, radius uniform from 0 to 1/2. The paper's ranking "
       "of Zaremba's points behind dart-throwing and jitter does not come out so.\n"
-      "- Table 4: with one point of each set left out of the count, but N in the division, the printed values come "
-      "out; with all points they do not, least at N = 16. (`counted=without-first` is that mode.)\n"
+      "- Table 4: with one point of each set left out of the count, but N in the division, the sum of z^2 comes near "
+      "the number of cells; with all points it is far above, and worst at N = 16. (`counted=without-first` is that "
+      "mode.)\n"
       "- Table 4's lines: the printed generator favours lines near 45 degrees (density sec^2 where isotropic lines "
       "have |cos| + |sin|). `edge-l2` has isotropic lines; the two differ by a few per cent.\n";
 }
@@ -215,8 +233,10 @@ std::string discrepancy_text(const DiscrepancySummary& summary, bool bold) {
           return row->text("pattern") == pattern && row->number("n") == size;
         });
         const Row* row = at == section.rows.end() ? nullptr : *at;
-        const double mean = row == nullptr ? std::nan("") : row->number("mean");
-        lines.back().push_back({number(mean, "{:.3g}"), mean});
+        const bool as_rms = row != nullptr && row->text("paper_is") == "rms";
+        const double mean = row == nullptr ? std::nan("") : row->number(as_rms ? "rms" : "mean");
+        const double competes = patterns_of(section).size() > 1 ? mean : std::nan("");
+        lines.back().push_back({number(mean, "{:.3g}") + (as_rms ? " rms" : ""), competes});
         if (!printed) continue;
         const double value = row == nullptr ? std::nan("") : row->number("paper");
         lines.back().push_back({number(value, "{:.3g}"), std::nan("")});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "reports/cases.h"
@@ -73,8 +74,23 @@ struct Report {
   const Cases& raw;
   const Cases& cases;
   const Cases& slopes;
-  std::int64_t largest_spp;
+  // The largest sample count of each scene.
+  std::map<std::string, std::int64_t> largest_spp;
 };
+
+std::map<std::string, std::int64_t> largest_counts(const Table& summary) {
+  std::map<std::string, std::int64_t> largest;
+  for (const Row& row : summary) {
+    std::int64_t& n = largest[std::string(row.text("scene"))];
+    n = std::max(n, static_cast<std::int64_t>(row.number("spp")));
+  }
+  return largest;
+}
+
+std::int64_t largest_count(const Report& r, const std::string& scene) {
+  const auto at = r.largest_spp.find(scene);
+  return at == r.largest_spp.end() ? 0 : at->second;
+}
 
 void add_what_was_run(std::string& out, const Table& rows, const Report& r) {
   std::vector<std::string> filters, estimators, spp;
@@ -149,7 +165,7 @@ void add_contrast(std::string& out, const Summary& summary, const Report& r) {
 std::vector<const Row*> ranked(const Report& r, const std::string& scene, const Reconstruction& kernel) {
   std::vector<const Row*> order;
   for (const std::string& pattern : r.cases.patterns()) {
-    const Row* row = r.cases.first(scene, pattern, kernel, r.largest_spp);
+    const Row* row = r.cases.first(scene, pattern, kernel, largest_count(r, scene));
     if (row != nullptr && std::isfinite(row->number("rmse_active"))) order.push_back(row);
   }
   std::stable_sort(order.begin(), order.end(),
@@ -163,14 +179,20 @@ double end_or_value(const Row& row, const char* name) {
 }
 
 void add_ranking(std::string& out, const Report& r) {
-  out += fmt::format("## The answer: patterns by error at {} samples per pixel\n\n", r.largest_spp);
+  std::set<std::int64_t> counts;
+  for (const auto& [scene, n] : r.largest_spp) counts.insert(n);
+  out += fmt::format("## The answer: patterns by error at {} samples per pixel\n\n", fmt::join(counts, " or "));
   out +=
       "RMSE over active pixels (those that the scene's boundary may touch), full coverage = 1; `=` where the 95% "
       "interval meets that of the best.\n\n";
   for (const std::string& scene : r.cases.scenes()) {
-    out += "### " + markdown_code(scene) + "\n\n";
+    out += "### " + markdown_code(scene) +
+           (counts.size() > 1 ? fmt::format(", {} samples per pixel", largest_count(r, scene)) : std::string()) +
+           "\n\n";
     std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
-    for (std::size_t rank = 0; rank < r.cases.patterns().size(); ++rank) {
+    std::size_t ranks = 0;
+    for (const Reconstruction& kernel : r.cases.kernels()) ranks = std::max(ranks, ranked(r, scene, kernel).size());
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
       lines.emplace_back(std::to_string(rank + 1), [&r, &scene, rank](const Reconstruction& kernel) -> std::string {
         const auto order = ranked(r, scene, kernel);
         if (rank >= order.size()) return kNone;
@@ -187,7 +209,7 @@ void add_ranking(std::string& out, const Report& r) {
 std::string worst_text(const Report& r, const std::string& scene, const std::string& pattern,
                        const Reconstruction& kernel) {
   const Row* worst = nullptr;
-  for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
+  for (const Row* row : r.raw.at(scene, pattern, kernel, largest_count(r, scene))) {
     const double size = row->number("max_abs_active");
     if (std::isfinite(size) && (worst == nullptr || size > worst->number("max_abs_active"))) worst = row;
   }
@@ -201,7 +223,7 @@ std::string worst_text(const Report& r, const std::string& scene, const std::str
 // The image of the first trial that has one, at the largest sample count.
 std::string image_text(const Report& r, const std::string& scene, const std::string& pattern,
                        const Reconstruction& kernel, const char* column, const char* what) {
-  for (const Row* row : r.raw.at(scene, pattern, kernel, r.largest_spp)) {
+  for (const Row* row : r.raw.at(scene, pattern, kernel, largest_count(r, scene))) {
     if (!row->text(column).empty()) return fmt::format("![{}]({})", what, row->text(column));
   }
   return kNone;
@@ -219,6 +241,10 @@ void add_pattern(std::string& out, const Report& r, const std::string& pattern) 
     out += "### " + markdown_code(pattern) + " on " + markdown_code(scene) + "\n\n";
     std::vector<std::pair<std::string, std::function<std::string(const Reconstruction&)>>> lines;
     for (const std::int64_t spp : r.cases.spp()) {
+      if (std::none_of(kernels.begin(), kernels.end(),
+                       [&](const Reconstruction& k) { return r.cases.first(scene, pattern, k, spp) != nullptr; })) {
+        continue;
+      }
       lines.emplace_back(std::to_string(spp), [&, spp](const Reconstruction& k) {
         return error_text(r.cases.first(scene, pattern, k, spp));
       });
@@ -247,7 +273,7 @@ void add_filters(std::string& out, const Table& filters) {
   out += "\n";
 }
 
-void add_notes(std::string& out, const Summary& summary, const Report& r) {
+void add_notes(std::string& out, const Summary& summary) {
   out += "## How to read this\n\n";
   out +=
       "- Errors are got - exact; RMSE is the root of the mean squared error over active pixels and trials. Brackets "
@@ -255,11 +281,10 @@ void add_notes(std::string& out, const Summary& summary, const Report& r) {
   out +=
       "- The slope is that of log RMSE against log samples per pixel (-0.5: Monte Carlo), by least squares; its "
       "interval comes from resampling whole trials.\n";
-  out += fmt::format(
-      "- Worst pixel (x, y) and images: at {} samples per pixel. Error images: blue is too little, light "
+  out +=
+      "- Worst pixel (x, y) and images: at the scene's largest sample count. Error images: blue is too little, light "
       "grey is exact, red is too much; the range (99.5% of |error| over active pixels, either side) is "
-      "in the file's text chunk `moire:range`.\n",
-      r.largest_spp);
+      "in the file's text chunk `moire:range`.\n";
   if (!line_families(summary).empty()) {
     out +=
         "- Random edges that one table of the study draws count as one scene. Their errors are pooled over all pixels "
@@ -281,18 +306,18 @@ void add_notes(std::string& out, const Summary& summary, const Report& r) {
 std::string markdown_report(std::string_view study_name, const Table& rows, const Summary& summary,
                             const Table& filters) {
   const Cases raw(rows), cases(summary.rows), slopes(summary.slopes);
-  const Report report{raw, cases, slopes, cases.spp().empty() ? 0 : cases.spp().back()};
+  const Report report{raw, cases, slopes, largest_counts(summary.rows)};
   std::string out = "# " + std::string(study_name) + "\n\n";
   if (rows.empty()) return out + "No rows.\n";
   add_contrast(out, summary, report);
   out += filter_comparison(summary);
   add_filters(out, filters);
-  out += discrepancy_prediction(summary);
   out += noise_report(summary);
   if (!summary.rows.empty()) add_ranking(out, report);
+  out += discrepancy_prediction(summary);
   add_what_was_run(out, rows, report);
   for (const std::string& pattern : cases.patterns()) add_pattern(out, report, pattern);
-  add_notes(out, summary, report);
+  add_notes(out, summary);
   return out;
 }
 

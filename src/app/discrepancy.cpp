@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -32,12 +33,24 @@ std::vector<DiscrepancyChoice> choices(const DiscrepancyOptions& options) {
   add("radius", options.radius, "--radius");
   std::vector<DiscrepancyChoice> measures;
   for (const std::string& text : options.measures) measures.emplace_back(parse_spec(text, "--measure"), defaults);
+  for (const auto& [key, value] : defaults) {
+    const auto takes = [&key = key](const DiscrepancyChoice& measure) {
+      if (key == "tests" && !measure.is_monte_carlo()) return false;
+      const auto& params = measure.info().params;
+      return std::any_of(params.begin(), params.end(), [&](const Param& p) { return p.name == key; });
+    };
+    if (std::none_of(measures.begin(), measures.end(), takes)) {
+      throw Error(value.place, key == "tests" ? "is of random tests; give --method monte-carlo, too"
+                                              : "does not go with any of these measures; leave it out");
+    }
+  }
   return measures;
 }
 
-// One row per pattern, n and measure: mean over sets of T (or D), sqrt(mean T^2), standard error of the mean.
+// One row per pattern, n and measure: mean over sets of T (or D), sqrt(mean T^2), standard error of the mean; of one
+// set by random tests test_error, the error that these leave.
 Row summary_row(const std::string& pattern, std::int64_t n, int dims, const DiscrepancyChoice& measure,
-                const std::vector<double>& values) {
+                const std::vector<double>& values, double test_error) {
   const DiscrepancyMean mean = mean_over_sets(values);
   Row row;
   row.set("pattern", pattern);
@@ -49,6 +62,7 @@ Row summary_row(const std::string& pattern, std::int64_t n, int dims, const Disc
   row.set("mean", finite_cell(mean.mean));
   row.set("rms", finite_cell(mean.rms));
   row.set("stderr", finite_cell(mean.standard_error));
+  if (values.size() == 1 && measure.is_monte_carlo()) row.set("test_error", finite_cell(test_error));
   return row;
 }
 
@@ -71,10 +85,14 @@ Table of_patterns(const DiscrepancyOptions& options, const std::vector<Discrepan
     const DiscrepancyBlock& of = study.blocks[group.block];
     for (std::size_t m = 0; m < measures.size(); ++m) {
       std::vector<double> values;
+      double test_error = 0;
       for (std::size_t t = 0; t < group.trials; ++t) {
-        values.push_back(results.rows[group.first_row + m * group.trials + t].number("discrepancy"));
+        const Row& row = results.rows[group.first_row + m * group.trials + t];
+        values.push_back(row.number("discrepancy"));
+        test_error = row.number("discrepancy_error");
       }
-      rows.push_back(summary_row(of.patterns[group.pattern].text(), of.n[group.n], of.dims[0], measures[m], values));
+      rows.push_back(
+          summary_row(of.patterns[group.pattern].text(), of.n[group.n], of.dims[0], measures[m], values, test_error));
     }
   }
   return rows;
@@ -100,14 +118,16 @@ Table of_points(const DiscrepancyOptions& options, const std::vector<Discrepancy
   for (const std::size_t n : sizes) {
     const std::vector<std::size_t>& same = sets_of[n];
     for (const DiscrepancyChoice& measure : measures) {
-      std::vector<double> values(same.size());
+      std::vector<Discrepancy> found(same.size());
       parallel_for(same.size(), [&](std::size_t i) {
         const PointSet& set = sets[same[i]];
         PointView view{set.x, set.y};
         if (dims == 3) view.t = set.t;
-        values[i] = measure(view, pixel_key(draw_hash(options.seed, static_cast<std::uint32_t>(i)), {})).value;
+        found[i] = measure(view, pixel_key(draw_hash(options.seed, static_cast<std::uint32_t>(i)), {}));
       });
-      rows.push_back(summary_row(name, static_cast<std::int64_t>(n), dims, measure, values));
+      std::vector<double> values;
+      for (const Discrepancy& d : found) values.push_back(d.value);
+      rows.push_back(summary_row(name, static_cast<std::int64_t>(n), dims, measure, values, found.back().error));
     }
   }
   return rows;
@@ -134,7 +154,9 @@ std::string text_of(const Table& rows) {
                      {number(row, "trials", "{:.0f}"), none},
                      {(exact ? "D = " : "T = ") + number(row, "mean", "{:.6g}"), none},
                      {number(row, "rms", "{:.6g}"), none},
-                     {number(row, "stderr", "{:.2g}"), none}});
+                     {std::isfinite(row.number("test_error")) ? number(row, "test_error", "{:.2g} (tests)")
+                                                              : number(row, "stderr", "{:.2g}"),
+                      none}});
   }
   return text_table(lines, false);
 }
@@ -150,7 +172,13 @@ Exit execute(const DiscrepancyOptions& options) {
     return Exit::ok;
   }
   std::string text;
-  for (const Row& row : rows) text += (text.empty() ? "[" : ",\n ") + json_row(row, "");
+  for (const Row& row : rows) {
+    Row named;  // the contract's nine
+    for (const auto& [name, cell] : row.cells()) {
+      if (name != "test_error") named.set(name, cell);
+    }
+    text += (text.empty() ? "[" : ",\n ") + json_row(named, "");
+  }
   print(text + "]\n");
   return Exit::ok;
 }

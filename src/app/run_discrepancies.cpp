@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,8 @@ constexpr auto kReports = std::to_array<std::string_view>({"results.csv", "summa
 
 // Larger sets are no dots any more.
 constexpr int kMostDrawn = 2048;
+// Pictures of sets in a report.
+constexpr std::size_t kMostPictures = 100;
 // Lines of a picture, as in the paper.
 constexpr int kDrawnLines = 100;
 
@@ -38,26 +43,25 @@ std::string points_file(const DiscrepancyStudy& study, const DiscrepancyGroup& g
                      block.dims[group.dims] == 3 ? "_t" : "");
 }
 
-// Whether the group's first set is drawn: the first group with such a set.
-bool is_drawn(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const DiscrepancyGroup& group) {
-  if (!study.images || study.blocks[group.block].n[group.n] > kMostDrawn) return false;
-  const std::string file = points_file(study, group);
-  for (const DiscrepancyGroup& other : plan.groups) {
-    if (points_file(study, other) == file) return other.first_row == group.first_row;
-  }
-  return false;
-}
+// The sets that are drawn, in the order of the plan: what they show, their file and the group.
+struct Drawn {
+  std::string what, file;
+  std::size_t first_row;  // of the group
+};
 
-std::vector<Picture> point_pictures(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
-  std::vector<Picture> pictures;
+std::vector<Drawn> drawn_sets(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
+  std::vector<Drawn> drawn;
+  std::set<std::string> files;
   for (const DiscrepancyGroup& group : plan.groups) {
-    if (!is_drawn(study, plan, group)) continue;
     const DiscrepancyBlock& block = study.blocks[group.block];
-    pictures.emplace_back(fmt::format("`{}`, {} points{}", block.patterns[group.pattern].text(), block.n[group.n],
-                                      block.dims[group.dims] == 3 ? ", time from blue to red" : ""),
-                          points_file(study, group));
+    if (!study.images || block.n[group.n] > kMostDrawn || drawn.size() >= kMostPictures) continue;
+    std::string file = points_file(study, group);
+    if (!files.insert(file).second) continue;
+    drawn.push_back({fmt::format("`{}`, {} points{}", block.patterns[group.pattern].text(), block.n[group.n],
+                                 block.dims[group.dims] == 3 ? ", time from blue to red" : ""),
+                     std::move(file), group.first_row});
   }
-  return pictures;
+  return drawn;
 }
 
 // Lines as the study's edge discrepancies draw them, and their duals.
@@ -80,7 +84,10 @@ std::vector<Picture> draw_lines(const DiscrepancyStudy& study, const RunFolder& 
     }
     write_png(folder.file(file), line_plot(lines));
     pictures.emplace_back(
-        fmt::format("{} {} lines and their duals: y = m x + b as the point (m, b)", kDrawnLines, what), file);
+        fmt::format("{} {} lines, and each line y = m x + b as the point (m, b), m to the right, b upwards, "
+                    "both from -4 to 5 with their axes; steeper lines are beyond",
+                    kDrawnLines, what),
+        file);
   };
   draw("edge-l2", LineLaw::isotropic, "isotropic", "images/lines_isotropic.png");
   draw("edge-l2-printed", LineLaw::printed, "of the paper's", "images/lines_printed.png");
@@ -115,16 +122,24 @@ Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   const ThreadLimit limit(options.threads);
   RunFolder folder(options, {study.name, study.text}, rows, kReports, study.images);
 
+  const std::vector<Drawn> drawn = drawn_sets(study, planned);
   watch_interrupts();
   Results outcome;
   {
     Progress progress;
     DiscrepancyObserver observer;
     observer.row = [&](const Row& row) { folder.append(row); };
+    const auto file_of = [&](const DiscrepancyGroup& group) {
+      const auto at =
+          std::find_if(drawn.begin(), drawn.end(), [&](const Drawn& d) { return d.first_row == group.first_row; });
+      return at == drawn.end() ? std::string() : folder.file(at->file);
+    };
+    observer.wants_first_set = [&](const DiscrepancyGroup& group) {
+      const std::string file = file_of(group);
+      return !file.empty() && !(folder.goes_on() && std::filesystem::exists(file));
+    };
     observer.first_set = [&](const DiscrepancyGroup& group, const PointView& set) {
-      if (is_drawn(study, planned, group)) {
-        write_png(folder.file(points_file(study, group)), point_plot(set.x, set.y, set.t));
-      }
+      write_png(file_of(group), point_plot(set.x, set.y, set.t));
     };
     observer.progress = [&](std::size_t done, std::size_t due) {
       progress.step(done, due, static_cast<double>(done) / static_cast<double>(due));
@@ -138,7 +153,8 @@ Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   write_whole(folder.file("results.csv"), csv(outcome.rows));
   write_whole(folder.file("summary.csv"), csv(summary.rows));
   write_whole(folder.file("slopes.csv"), csv(summary.slopes));
-  std::vector<Picture> pictures = point_pictures(study, planned);
+  std::vector<Picture> pictures;
+  for (const Drawn& d : drawn) pictures.emplace_back(d.what, d.file);
   for (Picture& picture : draw_lines(study, folder)) pictures.push_back(std::move(picture));
   const std::string report = folder.file("report.md");
   write_whole(report, discrepancy_markdown(study.name, summary, pictures));

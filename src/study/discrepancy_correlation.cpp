@@ -73,12 +73,7 @@ Table correlate_discrepancies(const Table& summary) {
         for (std::size_t i = 0; i < std::size(kKey); ++i) row.set(kKey[i], key[i]);
         row.set("discrepancy", column);
         row.set("points", static_cast<std::int64_t>(points.size()));
-        const double r = all.correlation();
-        row.set("correlation", finite_cell(r));
-        const bool has_interval = points.size() > 3 && std::fabs(r) < 1;
-        const double half = has_interval ? 1.959964 / std::sqrt(static_cast<double>(points.size()) - 3) : 0;
-        row.set("correlation_lo", has_interval ? finite_cell(std::tanh(std::atanh(r) - half)) : Cell());
-        row.set("correlation_hi", has_interval ? finite_cell(std::tanh(std::atanh(r) + half)) : Cell());
+        row.set("correlation", finite_cell(all.correlation()));
         row.set("same_n_correlation", finite_cell(within.correlation()));
         row.set("slope", finite_cell(all.xy / all.xx));
         table.push_back(std::move(row));

@@ -10,6 +10,8 @@
 
 #include "core/error.h"
 #include "core/names.h"
+#include "core/parallel.h"
+#include "core/sum.h"
 #include "measure/discrepancy/disk_l2.h"
 #include "measure/discrepancy/edge_l2.h"
 #include "measure/discrepancy/edge_linf.h"
@@ -31,10 +33,11 @@ constexpr Param kSquareParams[] = {kMethod, kTests, kCounted};
 constexpr Param kDiskParams[] = {number("radius", 0, 0, 0.5, "of all disks; 0: uniformly distributed from 0 to 1/2"),
                                  kMethod, kTests, kCounted};
 
-// What most_points allow: 2^24 where time is N log N, 2^18 for all pairs, less where pairs are dear.
+// What the last two numbers allow: 2^24 where time is N log N, 2^21 in three
+// dimensions, 2^18 for all pairs, less where pairs are dear.
 constexpr DiscrepancyInfo kDiscrepancies[] = {
     {"star-l2", "T over boxes [0, x) x [0, y), in three dimensions x [0, t)", "Warnock 1972; Heinrich 1996", "star_l2",
-     true, true, std::int64_t{1} << 24, kSquareParams},
+     true, true, std::int64_t{1} << 24, std::int64_t{1} << 21, kSquareParams},
     {"star-linf",
      "D over boxes [0, x) x [0, y): the star discrepancy",
      "Niederreiter 1978",
@@ -42,12 +45,13 @@ constexpr DiscrepancyInfo kDiscrepancies[] = {
      false,
      false,
      std::int64_t{1} << 18,
+     0,
      {}},
     {"edge-l2", "T over half-planes, their lines isotropic: all positions and directions alike",
-     "Mitchell 1992, with the invariant measure of lines", "edge_l2", true, false, std::int64_t{1} << 18,
+     "Mitchell 1992, with the invariant measure of lines", "edge_l2", true, false, std::int64_t{1} << 18, 0,
      kSquareParams},
     {"edge-l2-printed", "T over half-planes, their lines as the paper's generator draws them", "Mitchell 1992",
-     "edge_l2_printed", true, false, std::int64_t{1} << 18, kSquareParams},
+     "edge_l2_printed", true, false, std::int64_t{1} << 18, 0, kSquareParams},
     {"edge-linf",
      "D over half-planes",
      "Dobkin, Eppstein and Mitchell 1996",
@@ -55,9 +59,10 @@ constexpr DiscrepancyInfo kDiscrepancies[] = {
      false,
      false,
      std::int64_t{1} << 15,
+     0,
      {}},
     {"disk-l2", "T over disks on the unit torus, centres uniform", "Mitchell 1992", "disk_l2", true, false,
-     std::int64_t{1} << 18, kDiskParams},
+     std::int64_t{1} << 18, 0, kDiskParams},
 };
 
 std::vector<std::string_view> names() {
@@ -110,6 +115,11 @@ DiscrepancyChoice::DiscrepancyChoice(const Spec& spec, const Given& defaults)
                                         "method=monte-carlo, too",
                                         text_));
   }
+  constexpr double kLeastRadius = 1e-100;  // squares of smaller ones come near the smallest number
+  if (!is_plain() && *radius() < kLeastRadius) {
+    throw Error(spec.place, fmt::format("radius {} is too small; give 0 (uniformly distributed) or {} to 0.5",
+                                        shortest(*radius()), shortest(kLeastRadius)));
+  }
 }
 
 bool DiscrepancyChoice::is_monte_carlo() const { return info_->is_square && args_.text("method") == "monte-carlo"; }
@@ -122,6 +132,8 @@ bool DiscrepancyChoice::is_without_first() const {
 
 std::int64_t DiscrepancyChoice::tests() const { return args_.integer("tests"); }
 
+bool DiscrepancyChoice::is_plain() const { return info_->name != "disk-l2" || !radius(); }
+
 std::optional<double> DiscrepancyChoice::radius() const {
   const double r = args_.number("radius");
   return r > 0 ? std::optional<double>(r) : std::nullopt;
@@ -132,9 +144,10 @@ void DiscrepancyChoice::require(std::int64_t n, int dims) const {
     throw Error(args_.place(),
                 fmt::format("\"{}\" is of points in 2 dimensions; star-l2 is the one in 3", info_->name));
   }
-  if (n > info_->most_points && !is_monte_carlo()) {
+  const std::int64_t most = dims == 3 ? info_->most_points_3d : info_->most_points;
+  if (n > most && !is_monte_carlo()) {
     throw Error(args_.place(), fmt::format("\"{}\" of {} points would take too long; at most {}{}", info_->name, n,
-                                           info_->most_points, info_->is_square ? ", or method=monte-carlo" : ""));
+                                           most, info_->is_square ? ", or method=monte-carlo" : ""));
   }
   // A random test looks at every point.
   constexpr double kMostLooks = 0x1p42;
@@ -185,6 +198,39 @@ std::optional<double> DiscrepancyChoice::expected_square(const PatternChoice& pa
     if (edge) return expected_edge_l2_squared_n_rooks(n, line_law(name));
   }
   return std::nullopt;
+}
+
+std::vector<SetsDiscrepancy> discrepancies_of(const PatternChoice& pattern, int n, bool with_time, std::uint64_t seed,
+                                              std::span<const DiscrepancyChoice> choices) {
+  constexpr std::size_t kSets = 100;
+  const std::size_t sets = pattern.varies(with_time) ? kSets : 1;
+  std::vector<std::vector<double>> squares(choices.size(), std::vector<double>(sets));
+  parallel_for(sets, [&](std::size_t trial) {
+    const auto count = static_cast<std::size_t>(n);
+    std::vector<double> x(count), y(count), t(with_time ? count : 0);
+    const Draw draw{seed, static_cast<std::uint32_t>(trial)};
+    Pattern(pattern, n, draw).fill_set({x, y, t});
+    const Key key = pixel_key(draw_hash(draw.seed, draw.trial), {});
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const double value = choices[i]({x, y, t}, key).value;
+      squares[i][trial] = value * value;
+    }
+  });
+  std::vector<SetsDiscrepancy> all;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const int dims = with_time && choices[i].info().has_3d ? 3 : 2;
+    if (const auto expected = choices[i].expected_square(pattern, n, dims)) {
+      all.push_back({std::sqrt(*expected), 0});
+      continue;
+    }
+    Sum sum, spread;
+    for (const double s : squares[i]) sum.add(s);
+    const double mean = sum.value() / static_cast<double>(sets);
+    for (const double s : squares[i]) spread.add((s - mean) * (s - mean));
+    const double error = sets > 1 ? std::sqrt(spread.value() / static_cast<double>(sets * (sets - 1))) : 0;
+    all.push_back({std::sqrt(mean), mean > 0 ? error / (2 * std::sqrt(mean)) : 0});
+  }
+  return all;
 }
 
 }  // namespace moire

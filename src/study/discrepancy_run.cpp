@@ -13,33 +13,43 @@
 namespace moire {
 namespace {
 
-// One set and its rows, one per measure.
-struct Trial {
+struct PointArrays {
   std::vector<double> x, y, t;
-  Table rows;
   PointView view() const { return {x, y, t}; }
 };
 
-Trial run_trial(const DiscrepancyStudy& study, const DiscrepancyGroup& group, std::uint32_t trial) {
+PointArrays make_set(const DiscrepancyStudy& study, const DiscrepancyGroup& group, std::uint32_t trial) {
   const DiscrepancyBlock& block = study.blocks[group.block];
-  const PatternChoice& pattern = block.patterns[group.pattern];
-  const int n = block.n[group.n], dims = block.dims[group.dims];
-  Trial out;
-  out.x.resize(static_cast<std::size_t>(n));
-  out.y.resize(out.x.size());
-  out.t.resize(dims == 3 ? out.x.size() : 0);
+  const int n = block.n[group.n];
+  PointArrays set;
+  set.x.resize(static_cast<std::size_t>(n));
+  set.y.resize(set.x.size());
+  set.t.resize(block.dims[group.dims] == 3 ? set.x.size() : 0);
+  Pattern(block.patterns[group.pattern], n, Draw{study.seed, trial}).fill_set({set.x, set.y, set.t});
+  return set;
+}
+
+// The rows of one set, by measure: those that are due, up to where the run is stopped; others have no cells.
+Table run_trial(const DiscrepancyStudy& study, const DiscrepancyGroup& group, std::uint32_t trial,
+                const std::vector<bool>& due, const std::function<bool()>& stop) {
+  const DiscrepancyBlock& block = study.blocks[group.block];
+  Table rows(block.measures.size());
+  if (stop && stop()) return rows;
   const Stopwatch making;
-  Pattern(pattern, n, Draw{study.seed, trial}).fill_set({out.x, out.y, out.t});
+  const PointArrays set = make_set(study, group, trial);
   const std::int64_t points_ns = making.nanoseconds();
   const Key key = pixel_key(draw_hash(study.seed, trial), {});
-  for (const DiscrepancyChoice& measure : block.measures) {
+  for (std::size_t m = 0; m < block.measures.size(); ++m) {
+    if (!due[m]) continue;
+    if (stop && stop()) return rows;
+    const DiscrepancyChoice& measure = block.measures[m];
     const Stopwatch measuring;
-    const Discrepancy value = measure(out.view(), key);
+    const Discrepancy value = measure(set.view(), key);
     const std::int64_t measure_ns = measuring.nanoseconds();
-    Row row;
-    row.set("pattern", pattern.text());
-    row.set("n", std::int64_t{n});
-    row.set("dims", std::int64_t{dims});
+    Row& row = rows[m];
+    row.set("pattern", block.patterns[group.pattern].text());
+    row.set("n", std::int64_t{block.n[group.n]});
+    row.set("dims", std::int64_t{block.dims[group.dims]});
     row.set("measure", measure.text());
     row.set("method", std::string(measure.method()));
     row.set("trial", std::int64_t{trial});
@@ -50,9 +60,8 @@ Trial run_trial(const DiscrepancyStudy& study, const DiscrepancyGroup& group, st
     row.set("time_measure_ns", measure_ns);
     row.set("time_threads", std::int64_t{thread_count()});
     row.set("status", std::string("ok"));
-    out.rows.push_back(std::move(row));
   }
-  return out;
+  return rows;
 }
 
 }  // namespace
@@ -66,34 +75,37 @@ Results run(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Di
   std::size_t due = 0, done = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) due += is_due(i);
 
-  bool complete = true;
-  // Trials at a time: enough for all threads, few enough to stop soon.
-  const auto together = static_cast<std::uint32_t>(std::max(1, 2 * thread_count()));
+  // Trials at a time: enough for all threads, few enough that rows are kept soon.
+  const auto together = static_cast<std::size_t>(std::max(1, 2 * thread_count()));
+  const auto stopped = [&] { return observer.stop && observer.stop(); };
   for (const DiscrepancyGroup& group : plan.groups) {
+    if (stopped()) break;
+    if (observer.first_set && observer.wants_first_set && observer.wants_first_set(group)) {
+      observer.first_set(group, make_set(study, group, 0).view());
+    }
     const std::size_t measures = study.blocks[group.block].measures.size();
     const auto row_of = [&](std::size_t measure, std::uint32_t trial) {
       return group.first_row + measure * group.trials + trial;
     };
     std::vector<std::uint32_t> trials;
+    std::vector<std::vector<bool>> due_of;  // by measure
     for (std::uint32_t trial = 0; trial < group.trials; ++trial) {
-      bool any = trial == 0 && observer.first_set != nullptr && study.images;
-      for (std::size_t m = 0; m < measures; ++m) any |= is_due(row_of(m, trial));
-      if (any) trials.push_back(trial);
+      std::vector<bool> missing(measures);
+      for (std::size_t m = 0; m < measures; ++m) missing[m] = is_due(row_of(m, trial));
+      if (std::find(missing.begin(), missing.end(), true) == missing.end()) continue;
+      trials.push_back(trial);
+      due_of.push_back(std::move(missing));
     }
-    for (std::size_t begin = 0; begin < trials.size() && complete; begin += together) {
-      if (observer.stop && observer.stop()) {
-        complete = false;
-        break;
-      }
-      std::vector<Trial> results(std::min<std::size_t>(together, trials.size() - begin));
-      parallel_for(results.size(), [&](std::size_t i) { results[i] = run_trial(study, group, trials[begin + i]); });
+    for (std::size_t begin = 0; begin < trials.size() && !stopped(); begin += together) {
+      std::vector<Table> results(std::min(together, trials.size() - begin));
+      parallel_for(results.size(), [&](std::size_t i) {
+        results[i] = run_trial(study, group, trials[begin + i], due_of[begin + i], observer.stop);
+      });
       for (std::size_t i = 0; i < results.size(); ++i) {
-        const std::uint32_t trial = trials[begin + i];
-        if (trial == 0 && observer.first_set && study.images) observer.first_set(group, results[i].view());
         for (std::size_t m = 0; m < measures; ++m) {
-          Row& row = rows[row_of(m, trial)];
-          if (!row.cells().empty()) continue;
-          row = std::move(results[i].rows[m]);
+          if (results[i][m].cells().empty()) continue;
+          Row& row = rows[row_of(m, trials[begin + i])];
+          row = std::move(results[i][m]);
           if (observer.row) observer.row(row);
           ++done;
         }
@@ -103,7 +115,7 @@ Results run(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Di
   }
 
   Results out;
-  out.complete = complete;
+  out.complete = done == due;
   for (Row& row : rows) {
     if (!row.cells().empty()) out.rows.push_back(std::move(row));
   }

@@ -11,13 +11,15 @@
 
 namespace moire {
 
-// What a run tells and asks; every function may be empty. All are called from the thread that runs the study.
+// What a run tells and asks; every function may be empty. All but `stop` are called from the thread that runs the
+// study, `stop` from several at once.
 struct DiscrepancyObserver {
   std::function<void(const Row&)> row;  // as they are finished; not for rows that were there
-  // The set of a group's trial 0, where the study keeps pictures.
+  // The set of trial 0 of a group that wants it.
+  std::function<bool(const DiscrepancyGroup&)> wants_first_set;
   std::function<void(const DiscrepancyGroup&, const PointView&)> first_set;
   std::function<void(std::size_t done, std::size_t due)> progress;  // rows
-  std::function<bool()> stop;                                       // true ends the run
+  std::function<bool()> stop;  // asked before each measure of a set; true ends the run, and what is finished is kept
 };
 
 // Runs the plan, trials in parallel; the rows do not depend on the number of threads, time_* apart. `earlier` are rows

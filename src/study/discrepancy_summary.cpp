@@ -28,15 +28,13 @@ std::pair<double, double> mean_and_error(const std::vector<double>& values, F&& 
 constexpr double kPaperTests = 10000;
 
 // How many standard errors a printed value is from ours: theirs has the error of as many sets of the same law, or for a
-// single set of as many random tests, and is rounded, which adds the variance of a uniform number. NaN where neither
-// sets nor tests are random.
-double paper_z(const PublishedValue& paper, const DiscrepancyMean& ours, std::size_t trials, double test_error,
-               double tests) {
-  const double error = trials < 2     ? test_error
-                       : paper.is_rms ? ours.square_error / (2 * ours.rms)
-                                      : ours.standard_error;
+// pattern that does not vary of as many random tests, and is rounded, which adds the variance of a uniform number. NaN
+// where the error is not known, or there is none.
+double paper_z(const PublishedValue& paper, const DiscrepancyMean& ours, bool varies, std::size_t trials,
+               double test_error, double tests) {
+  const double error = !varies ? test_error : paper.is_rms ? ours.square_error / (2 * ours.rms) : ours.standard_error;
   if (!(error > 0)) return std::nan("");
-  const double theirs = trials < 2         ? error * std::sqrt(tests / kPaperTests)
+  const double theirs = !varies            ? error * std::sqrt(tests / kPaperTests)
                         : paper.trials > 0 ? error * std::sqrt(static_cast<double>(trials) / paper.trials)
                                            : 0;
   const double all = std::sqrt(error * error + theirs * theirs + paper.last_digit * paper.last_digit / 12);
@@ -70,8 +68,10 @@ void add_slope(const SlopeKey& key, Series& series, Table& slopes) {
   row.set("n_min", slope->n_min);
   row.set("n_max", slope->n_max);
   row.set("points", std::int64_t{slope->points});
-  const auto known = known_exponent(series.pattern->info().name, static_cast<int>(dims), series.measure->info().name);
+  const auto known = known_exponent(*series.pattern, static_cast<int>(dims), *series.measure);
+  row.set("trials", static_cast<std::int64_t>(trials));
   row.set("known", known ? Cell(known->exponent) : Cell());
+  row.set("known_is", known ? Cell(std::string(known->at_best ? "at best" : "as n grows")) : Cell());
   row.set("why", known ? Cell(std::string(known->why)) : Cell());
   slopes.push_back(std::move(row));
 }
@@ -101,6 +101,7 @@ DiscrepancySummary summarize(const DiscrepancyStudy& study, const DiscrepancyPla
         values.push_back(rows[at].number("discrepancy"));
         test_error = rows[at].number("discrepancy_error");
       }
+      const bool varies = pattern.varies(dims == 3);
       const DiscrepancyMean mean = mean_over_sets(values);
       const auto dof = static_cast<std::int64_t>(values.size()) - 1;
       Row row;
@@ -120,13 +121,13 @@ DiscrepancySummary summarize(const DiscrepancyStudy& study, const DiscrepancyPla
       row.set("expected_rms", expected ? Cell(std::sqrt(*expected)) : Cell());
       row.set("expected_z",
               expected && dof > 0 ? finite_cell((mean.rms * mean.rms - *expected) / mean.square_error) : Cell());
-      const auto paper = published(pattern.info().name, n, dims, measure.info().name, measure.is_without_first());
+      const auto paper = published(pattern, n, dims, measure);
       row.set("table", paper ? Cell(std::int64_t{paper->table}) : Cell());
       row.set("paper", paper ? Cell(paper->value) : Cell());
       row.set("paper_is", paper ? Cell(std::string(paper->is_rms ? "rms" : "mean")) : Cell());
       const auto tests = static_cast<double>(measure.is_monte_carlo() ? measure.tests() : 0);
-      row.set("paper_z", paper ? finite_cell(paper_z(*paper, mean, values.size(), test_error, tests)) : Cell());
-      row.set("paper_as_printed", paper && dof == 0 && !measure.is_monte_carlo()
+      row.set("paper_z", paper ? finite_cell(paper_z(*paper, mean, varies, values.size(), test_error, tests)) : Cell());
+      row.set("paper_as_printed", paper && !varies && !measure.is_monte_carlo()
                                       ? Cell(std::fabs(mean.mean - paper->value) <= paper->last_digit / 2)
                                       : Cell());
       row.set("paper_doubt", paper && !paper->doubt.empty() ? Cell(std::string(paper->doubt)) : Cell());

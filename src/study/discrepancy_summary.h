@@ -13,7 +13,8 @@ struct DiscrepancySummary {
   // interval and no z for one trial.
   Table rows;
   // One row per pattern, dims and measure with two sizes or more: slope of log rms against log n, slope_lo, slope_hi
-  // (by trials: none for one), n_min, n_max, points; known, why: the exponent as n grows where it is known.
+  // (by trials: none for one), n_min, n_max, points; trials: sets of each size that the slope is of, the
+  // first ones of all where sizes have different numbers; known, known_is, why: the exponent where it is known.
   Table slopes;
 };
 

@@ -59,15 +59,11 @@ double OptionalMeasures::flat_field(const Case& c, SampleMaker& maker) {
   return known->second;
 }
 
-const std::vector<double>& OptionalMeasures::discrepancies(const Case& c, bool moves) {
-  const auto [known, is_new] = discrepancies_.try_emplace({c.pattern, c.spp, c.trial, moves});
-  if (!is_new) return known->second;
-  const auto n = static_cast<std::size_t>(study_.spp[c.spp]);
-  std::vector<double> x(n), y(n), t(moves ? n : 0);
-  Pattern(study_.patterns[c.pattern], study_.spp[c.spp], Draw{study_.seed, c.trial}).fill_set({x, y, t});
-  const Key key = pixel_key(draw_hash(study_.seed, c.trial), {});
-  for (const DiscrepancyChoice& choice : study_.discrepancies) {
-    known->second.push_back(choice({x, y, t}, key).value);
+const std::vector<SetsDiscrepancy>& OptionalMeasures::discrepancies(const Case& c, bool moves) {
+  const auto [known, is_new] = discrepancies_.try_emplace({c.pattern, c.spp, moves});
+  if (is_new) {
+    known->second =
+        discrepancies_of(study_.patterns[c.pattern], study_.spp[c.spp], moves, study_.seed, study_.discrepancies);
   }
   return known->second;
 }
@@ -84,11 +80,14 @@ void OptionalMeasures::add(const Case& c, SampleMaker& maker, const Truth& truth
     set_hit_pixels(row, has_edge_ratio(study_, c) ? hit_pixels(truth, result, maker.samples(c), same) : HitPixels{});
   }
   if (!study_.discrepancies.empty()) {
-    const bool moves = study_.scenes[c.scene].image.moves();
-    const std::vector<double>& values = discrepancies(c, moves);
+    const bool moves = study_.scenes[c.scene].image.moves(), has_sets = study_.layouts[c.layout] == Layout::pixel;
+    const std::vector<SetsDiscrepancy> none(study_.discrepancies.size());
+    const std::vector<SetsDiscrepancy>& values = has_sets ? discrepancies(c, moves) : none;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const DiscrepancyInfo& info = study_.discrepancies[i].info();
-      row.set(discrepancy_column(info, moves && info.has_3d), values[i]);
+      const std::string column = discrepancy_column(info, moves && info.has_3d);
+      row.set(column, has_sets ? finite_cell(values[i].rms) : Cell());
+      row.set(column + "_error", has_sets ? finite_cell(values[i].error) : Cell());
     }
   }
   if (study_.measures.has(Measure::ringing)) {

@@ -8,6 +8,7 @@
 
 #include "measure/excursion.h"
 #include "study/coverage.h"
+#include "study/discrepancy_measure.h"
 #include "study/run.h"
 #include "study/sample_maker.h"
 
@@ -24,8 +25,10 @@ class OptionalMeasures {
   //   flat-field: flat_field_rms (flat_field.h), the same for all scenes and estimators.
   //   ringing: overshoot, undershoot and ringing_rms (measure/excursion.h, over all pixels), each _got and _exact.
   //   edge-ratio: hit_pixels, hit_mse and hit_edge_l2_sq (hit_pixels.h); empty where the ratio means nothing.
-  //   discrepancies: star_l2, ... of the pattern's one set of this trial (`moire points`); of moving scenes
-  //     star_l2_3d, in x, y and t, in place of star_l2.
+  //   discrepancies: star_l2, ... and star_l2_error, ...: the root mean square of T over sets of the pattern and its
+  //     standard error, by theory where that is known (no error), else over 100 sets, the same for all scenes and
+  //     trials; of moving scenes star_l2_3d, in x, y and t, in place of star_l2. Empty for layout=image, whose pixels
+  //     have no such sets.
   void add(const Case& c, SampleMaker& maker, const Truth& truth, CaseResult& result);
 
  private:
@@ -36,14 +39,14 @@ class OptionalMeasures {
   const Truth& box(std::uint32_t scene);
   const OfExact& of_exact(const Case& c, const Truth& truth);
   double flat_field(const Case& c, SampleMaker& maker);
-  const std::vector<double>& discrepancies(const Case& c, bool moves);
+  const std::vector<SetsDiscrepancy>& discrepancies(const Case& c, bool moves);
 
   const Study& study_;
   std::map<std::uint32_t, Truth> boxes_;                                            // by scene
   std::map<std::pair<std::uint32_t, std::uint32_t>, OfExact> exact_;                // by scene and filter
   std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> flat_of_;  // pattern, spp, trial, layout
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, bool>, std::vector<double>>
-      discrepancies_;                     // by pattern, spp, trial and whether time counts
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::vector<SetsDiscrepancy>>
+      discrepancies_;                     // by pattern, spp and whether time counts
   std::map<std::uint32_t, double> flat_;  // of these, by filter
 };
 

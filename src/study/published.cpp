@@ -1,7 +1,7 @@
 // The paper's tables.
 #include "study/published.h"
 
-#include <cmath>
+#include <algorithm>
 #include <iterator>
 
 namespace moire {
@@ -57,42 +57,60 @@ std::string_view doubt_of(int table, std::string_view pattern, std::string_view 
   return "";
 }
 
+// Whether the parameters are the defaults, but for those that the paper leaves open.
+bool is_plain(const PatternChoice& pattern) {
+  constexpr std::string_view kOpen[] = {"k", "bank", "cells"};
+  for (const Param& p : pattern.info().params) {
+    if (std::find(std::begin(kOpen), std::end(kOpen), p.name) != std::end(kOpen)) continue;
+    const bool same = p.kind == Param::Kind::choice ? pattern.args().text(p.name) == p.text
+                                                    : pattern.args().number(p.name) == p.fallback;
+    if (!same) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-std::optional<PublishedValue> published(std::string_view pattern, std::int64_t n, int dims, std::string_view measure,
-                                        bool without_first) {
-  const int table = table_of(measure, dims);
-  if (without_first && table != 4) return std::nullopt;
+std::optional<PublishedValue> published(const PatternChoice& pattern, std::int64_t n, int dims,
+                                        const DiscrepancyChoice& measure) {
+  if (!is_plain(pattern) || !measure.is_plain()) return std::nullopt;
+  const std::string_view name = pattern.info().name, of = measure.info().name;
+  const int table = table_of(of, dims);
+  if (measure.is_without_first() && table != 4) return std::nullopt;
   for (const PaperRow& row : kRows) {
-    if (row.table != table || row.pattern != pattern) continue;
+    if (row.table != table || row.pattern != name) continue;
     for (std::size_t i = 0; i < std::size(kSizes); ++i) {
       if (kSizes[i] != n) continue;
-      const bool formula = table <= 2 && pattern == "random";
-      const bool fixed = pattern == "zaremba";
+      const bool formula = table <= 2 && name == "random";
       return PublishedValue{table,
                             row.value[i],
                             row.last_digit[i],
-                            formula || fixed ? 0 : 100,
+                            formula || name == "zaremba" ? 0 : 100,
                             formula,
-                            doubt_of(table, pattern, measure, without_first)};
+                            doubt_of(table, name, of, measure.is_without_first())};
     }
   }
   return std::nullopt;
 }
 
-std::optional<KnownExponent> known_exponent(std::string_view pattern, int dims, std::string_view measure) {
-  const bool star = measure == "star-l2", shape = measure.starts_with("edge-l2") || measure == "disk-l2";
+std::optional<KnownExponent> known_exponent(const PatternChoice& pattern, int dims, const DiscrepancyChoice& measure) {
+  if (!is_plain(pattern) || measure.is_without_first()) return std::nullopt;
+  const std::string_view name = pattern.info().name, of = measure.info().name;
+  const bool star = of == "star-l2", shape = of == "edge-l2" || of == "edge-l2-printed" || of == "disk-l2";
   if (!star && !shape) return std::nullopt;
-  if (pattern == "random") return KnownExponent{-0.5, "independent points"};
-  if (pattern == "n-rooks") return KnownExponent{-0.5, "even along the axes, random across them"};
-  if (pattern == "dart-throwing" && dims == 2) {
-    return KnownExponent{-0.5, "a packing that is not hyperuniform: random points times a constant"};
+  if (name == "random") return KnownExponent{-0.5, false, "independent points"};
+  if (name == "n-rooks") return KnownExponent{-0.5, false, "even along the axes, random across them"};
+  if (name == "dart-throwing" && dims == 2) {
+    return KnownExponent{-0.5, false, "a packing that is not hyperuniform: random points times a constant"};
   }
-  if (pattern == "jittered" && dims == 2) return KnownExponent{-0.75, "one random point in each cell"};
-  if (pattern == "jittered-random-time") return KnownExponent{dims == 3 ? -0.5 : -0.75, "time is independent"};
-  if (pattern == "zaremba" || pattern == "hammersley") {
-    if (star) return KnownExponent{-1, "times a power of log n (Warnock 1972; Roth 1954 for the bound from below)"};
-    return KnownExponent{-0.75, "no points do better than this (Beck and Chen 1987)"};
+  if (name == "jittered" && dims == 2) return KnownExponent{-0.75, false, "one random point in each cell"};
+  if (name == "jittered-random-time") {
+    return dims == 3 ? KnownExponent{-0.5, false, "the times are independent"}
+                     : KnownExponent{-0.75, false, "one random point in each cell"};
+  }
+  if (name == "zaremba" || name == "hammersley") {
+    if (star) return KnownExponent{-1, false, "times a power of log n (Roth 1954; Warnock 1972)"};
+    return KnownExponent{-0.75, true, "no points do better (Beck and Chen 1987)"};
   }
   return std::nullopt;
 }

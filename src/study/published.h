@@ -6,6 +6,9 @@
 #include <optional>
 #include <string_view>
 
+#include "patterns/pattern.h"
+#include "study/discrepancy_measure.h"
+
 namespace moire {
 
 // One cell of a table.
@@ -18,16 +21,17 @@ struct PublishedValue {
   std::string_view doubt;  // why it may differ though both are right; "": no doubt
 };
 
-// The cell of a pattern's name, number of points and dimensions; `without_first` are measures that leave out the set's
-// first point. None where the paper has none.
-std::optional<PublishedValue> published(std::string_view pattern, std::int64_t n, int dims, std::string_view measure,
-                                        bool without_first);
+// The cell of a pattern with n points; none where the paper has none. The paper knows patterns and disks without
+// parameters: others than the defaults have no cell, but for how hard dart-throwing and scanning try.
+std::optional<PublishedValue> published(const PatternChoice& pattern, std::int64_t n, int dims,
+                                        const DiscrepancyChoice& measure);
 
-// The exponent e of T ~ n^e as n grows, where it is known.
+// The exponent e of T ~ n^e as n grows, where it is known, for the same patterns.
 struct KnownExponent {
   double exponent;
+  bool at_best;  // a bound that holds for all points, whether or not these attain it
   std::string_view why;
 };
-std::optional<KnownExponent> known_exponent(std::string_view pattern, int dims, std::string_view measure);
+std::optional<KnownExponent> known_exponent(const PatternChoice& pattern, int dims, const DiscrepancyChoice& measure);
 
 }  // namespace moire

@@ -235,9 +235,8 @@ void set_optional(Row& row, const Case& c) {
     for (const bool with_time : {false, true}) {
       const std::string name = discrepancy_column(info, with_time);
       if (!has(name)) continue;
-      std::vector<double> squares;
-      for (const Row* x : c.rows) squares.push_back(x->number(name) * x->number(name));
-      set_finite(row, name, rms_over_trials(squares));
+      // The same in all rows of a case.
+      for (const std::string& cell : {name, name + "_error"}) copy_cell(*c.rows.front(), cell, row, cell);
     }
   }
   if (has("hit_pixels")) set_edge_ratio(row, c);

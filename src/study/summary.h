@@ -20,9 +20,9 @@ struct Summary {
   //   slope_spp_max, slope_left_out.
   //   Where the study measured them (optional_measures.h): rmse_coverage_active, rmse_coverage_all, each with _lo and
   //   _hi; rmse_filter_active, rmse_filter_all; flat_field_rms, ringing_rms_got, ringing_rms_exact (roots of mean
-  //   squares over trials); overshoot and undershoot, _got and _exact (largest); star_l2, ... (roots of mean squares
-  //   over trials); edge_ratio with _lo and _hi (over trials, of a family over lines); the columns of noise_measures.h,
-  //   as they stand in the last trial's row (of a family: none).
+  //   squares over trials); overshoot and undershoot, _got and _exact (largest); star_l2, ... and their errors, as in
+  //   the rows; edge_ratio with _lo and _hi (over trials, of a family over lines); the columns of noise_measures.h, as
+  //   they stand in the last trial's row (of a family: none).
   Table rows;
   // One row per scene, pattern, filter and estimator with a rate: slope of log rmse_active against log spp, slope_lo,
   //   slope_hi, ci_method, n_trials, spp_min, spp_max, n_spp (the points used), left_out (sample counts that are

@@ -39,8 +39,8 @@ TEST_SUITE("cli") {
     for (const std::string dims : {"2", "3"}) {
       const json own = json::parse(
           run_ok({"discrepancy", "hammersley", "--n", "16", "--measure", "star-l2", "--dims", dims, "--json"}).out);
-      const json scored = json::parse(
-          run_ok({"discrepancy", "--points", file, "--measure", "star-l2", "--dims", dims, "--json"}).out);
+      const json scored =
+          json::parse(run_ok({"discrepancy", "--points", file, "--measure", "star-l2", "--dims", dims, "--json"}).out);
       CHECK(own[0]["mean"] == scored[0]["mean"]);
       CHECK(scored[0]["n"] == 16);
       CHECK(scored[0]["pattern"] == file);
@@ -82,6 +82,9 @@ TEST_SUITE("cli") {
     refused({"zaremba", "--n", "16777216", "--measure", "edge-l2"}, "262144");
     refused({"zaremba", "--n", "16", "--measure", "disk-l2", "--radius", "0.7"}, "0.5");
     refused({"zaremba", "--n", "16", "--measure", "star-l2", "--method", "guess"}, "monte-carlo");
+    refused({"zaremba", "--n", "16", "--measure", "star-l2", "--lines", "100"}, "--method monte-carlo");
+    refused({"zaremba", "--n", "16", "--measure", "star-linf", "--method", "monte-carlo"}, "leave it out");
+    refused({"zaremba", "--n", "16", "--measure", "edge-l2", "--radius", "0.1"}, "leave it out");
     const Folder folder;
     const std::string file = folder / "points.csv";
     std::ofstream(file) << "0.5,0.5\n1.0,0.25\n";
@@ -95,13 +98,22 @@ TEST_SUITE("cli") {
                             "[\"star-l2\", \"edge-l2-printed\"]\n";
     const Outcome run = run_ok({"run", study, "-o", out});
     CHECK(run.out.find("star-l2") != std::string::npos);
-    for (const char* name : {"results.jsonl", "results.csv", "summary.csv", "slopes.csv", "report.md",
-                             "images/points_zaremba_16.png", "images/points_jittered_64.png",
-                             "images/lines_printed.png"}) {
+    for (const char* name :
+         {"results.jsonl", "results.csv", "summary.csv", "slopes.csv", "report.md", "images/points_zaremba_16.png",
+          "images/points_jittered_64.png", "images/lines_printed.png"}) {
       CAPTURE(name);
       CHECK(std::filesystem::file_size(out + "/" + name) > 0);
     }
     CHECK(run_ok({"run", study, "-o", out, "--resume"}).out == run.out);
+    // As a kill leaves it: some rows, the last one cut.
+    const std::map<std::string, std::string> whole = files_of(out);
+    std::string text = read_file(out + "/results.jsonl");
+    text.resize(text.size() / 2);
+    std::ofstream(out + "/results.jsonl", std::ios::binary) << text;
+    std::filesystem::remove(out + "/images/points_zaremba_16.png");
+    const Outcome again = run_program({"run", study, "-o", out, "--resume"});
+    CHECK(again.code == 0);
+    CHECK(files_of(out) == whole);
     CHECK(run_ok({"run", study, "-o", out, "--dry-run"}).out.find("20 rows") != std::string::npos);
   }
 }

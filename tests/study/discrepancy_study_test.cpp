@@ -4,7 +4,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "core/parallel.h"
 #include "measure/discrepancy/edge_l2.h"
@@ -28,6 +31,9 @@ std::string refusal(const std::string& text) {
   return message_of([&] { plan(parse(text)); });
 }
 
+PatternChoice pattern_of(const std::string& text) { return PatternChoice(parse_spec(text, "test")); }
+DiscrepancyChoice measure_of(const std::string& text) { return DiscrepancyChoice(parse_spec(text, "test")); }
+
 const std::string kSmall = "trials = 3\nn = [4, 16]\npatterns = [\"jittered\", \"zaremba\"]\n";
 
 }  // namespace
@@ -43,8 +49,9 @@ TEST_SUITE("unit") {
 
   TEST_CASE("keys outside of tables are the defaults of the tables") {
     const DiscrepancyStudy study =
-        parse(kSmall + "name = \"x\"\nseed = 7\n[[discrepancy]]\nmeasures = [\"star-l2\"]\n[[discrepancy]]\nn = "
-                       "[9]\ntrials = 5\nmeasures = [\"disk-l2\"]\n");
+        parse(kSmall +
+              "name = \"x\"\nseed = 7\n[[discrepancy]]\nmeasures = [\"star-l2\"]\n[[discrepancy]]\nn = "
+              "[9]\ntrials = 5\nmeasures = [\"disk-l2\"]\n");
     CHECK(study.name == "x");
     CHECK(study.seed == 7);
     REQUIRE(study.blocks.size() == 2);
@@ -61,8 +68,7 @@ TEST_SUITE("unit") {
     CHECK(refusal("n = [4]\nmeasures = [\"star-l2\"]\n").find("no patterns") != std::string::npos);
     CHECK(refusal(kSmall).find("no measures") != std::string::npos);
     CHECK(refusal(kSmall + "measures = [\"star-l3\"]\n").find("star-l2") != std::string::npos);
-    CHECK(refusal(kSmall + "measures = [\"star-l2\"]\ndims = [3]\n").find("jittered-random-time") !=
-          std::string::npos);
+    CHECK(refusal(kSmall + "measures = [\"star-l2\"]\ndims = [3]\n").find("jittered-random-time") != std::string::npos);
     CHECK(refusal("n = [4]\npatterns = [\"zaremba\"]\nmeasures = [\"edge-l2\"]\ndims = [3]\n").find("star-l2") !=
           std::string::npos);
     CHECK(refusal("n = [5]\npatterns = [\"jittered\"]\nmeasures = [\"star-l2\"]\n").find("nearest: 4, 9") !=
@@ -70,6 +76,9 @@ TEST_SUITE("unit") {
     CHECK(refusal(kSmall + "measures = [\"star-l2:counted=without-first\"]\n").find("monte-carlo") !=
           std::string::npos);
     CHECK(refusal(kSmall + "measures = [\"star-linf:method=monte-carlo\"]\n").find("star-linf") != std::string::npos);
+    CHECK(refusal(kSmall + "measures = [\"disk-l2:radius=1e-170\"]\n").find("too small") != std::string::npos);
+    CHECK(refusal("n = [4194304]\ndims = [3]\npatterns = [\"random\"]\nmeasures = [\"star-l2\"]\n").find("2097152") !=
+          std::string::npos);
     CHECK(refusal(kSmall + "measures = [\"disk-l2:radius=0.6\"]\n").find("0.5") != std::string::npos);
     CHECK(refusal("n = [300000]\npatterns = [\"random\"]\nmeasures = [\"edge-l2\"]\n").find("at most 262144") !=
           std::string::npos);
@@ -158,15 +167,91 @@ TEST_SUITE("unit") {
       }
     }
     CHECK(exact == 6);
-    CHECK_FALSE(published("zaremba", 64, 2, "star-l2", false).has_value());
-    CHECK_FALSE(published("zaremba", 16, 2, "star-linf", false).has_value());
-    CHECK(published("zaremba", 16, 2, "edge-l2-printed", true)->doubt.empty());
-    CHECK_FALSE(published("zaremba", 16, 2, "edge-l2-printed", false)->doubt.empty());
+  }
+
+  TEST_CASE("the paper's four tables are as it prints them") {
+    // By table: pattern and its values at 16, 256 and 1600 points, in the paper's order.
+    const std::vector<std::tuple<std::string, std::string, int, std::string>> tables = {
+        {"star-l2", "zaremba", 2, "0.0358 0.00255 0.000438"},
+        {"star-l2", "jittered", 2, "0.0489 0.00633 0.00160"},
+        {"star-l2", "dart-throwing", 2, "0.0490 0.00799 0.00254"},
+        {"star-l2", "n-rooks", 2, "0.0461 0.0101 0.00391"},
+        {"star-l2", "random", 2, "0.0932 0.0233 0.00932"},
+        {"star-l2", "zaremba", 3, "0.0393 0.00376 0.000761"},
+        {"star-l2", "scan-time", 3, "0.0473 0.00721 0.00235"},
+        {"star-l2", "jittered-random-time", 3, "0.0580 0.0126 0.00512"},
+        {"star-l2", "random", 3, "0.0741 0.0185 0.00741"},
+        {"disk-l2", "dart-throwing", 2, "0.0840 0.0120 0.00368"},
+        {"disk-l2", "jittered", 2, "0.0994 0.0165 0.00394"},
+        {"disk-l2", "zaremba", 2, "0.0855 0.0160 0.00511"},
+        {"disk-l2", "random", 2, "0.104 0.0239 0.00993"},
+        {"disk-l2", "n-rooks", 2, "0.0908 0.0224 0.0104"},
+        {"edge-l2-printed", "zaremba", 2, "0.0504 0.00478 0.00111"},
+        {"edge-l2-printed", "jittered", 2, "0.0538 0.00595 0.00146"},
+        {"edge-l2-printed", "dart-throwing", 2, "0.0613 0.00767 0.00241"},
+        {"edge-l2-printed", "n-rooks", 2, "0.0637 0.0123 0.00488"},
+        {"edge-l2-printed", "random", 2, "0.0924 0.0224 0.00866"}};
+    for (const auto& [measure, pattern, dims, values] : tables) {
+      CAPTURE(measure);
+      CAPTURE(pattern);
+      std::istringstream stream(values);
+      for (const int n : {16, 256, 1600}) {
+        std::string word;
+        stream >> word;
+        const auto cell = published(pattern_of(pattern), n, dims, measure_of(measure));
+        REQUIRE(cell.has_value());
+        CHECK(cell->value == std::stod(word));
+        const auto decimals = static_cast<int>(word.size() - word.find('.')) - 1;
+        CHECK(cell->last_digit == doctest::Approx(std::pow(10, -decimals)).epsilon(1e-14));
+      }
+    }
+  }
+
+  TEST_CASE("the paper's values and known rates belong to its own patterns and measures alone") {
+    const std::string without = "edge-l2-printed:method=monte-carlo,counted=without-first";
+    CHECK_FALSE(published(pattern_of("zaremba"), 64, 2, measure_of("star-l2")).has_value());
+    CHECK_FALSE(published(pattern_of("zaremba"), 16, 2, measure_of("star-linf")).has_value());
+    CHECK(published(pattern_of("zaremba"), 16, 2, measure_of(without))->doubt.empty());
+    CHECK_FALSE(published(pattern_of("zaremba"), 16, 2, measure_of("edge-l2-printed"))->doubt.empty());
+    for (const char* other : {"zaremba:instance=shift", "jittered:amount=0.5", "jittered:amount=0"}) {
+      CHECK_FALSE(published(pattern_of(other), 16, 2, measure_of("star-l2")).has_value());
+      CHECK_FALSE(known_exponent(pattern_of(other), 2, measure_of("star-l2")).has_value());
+    }
+    CHECK(published(pattern_of("dart-throwing:k=10"), 16, 2, measure_of("star-l2")).has_value());
+    CHECK_FALSE(published(pattern_of("random"), 16, 2, measure_of("disk-l2:radius=0.1")).has_value());
+    CHECK(known_exponent(pattern_of("zaremba"), 2, measure_of("edge-l2"))->at_best);
+    CHECK_FALSE(known_exponent(pattern_of("jittered"), 2, measure_of("edge-l2"))->at_best);
+  }
+
+  TEST_CASE("one set of a pattern that varies has no z, and random tests of one that does not have theirs") {
+    const DiscrepancyStudy study = parse(
+        "trials = 1\nn = [16]\npatterns = [\"random\", \"zaremba\"]\nmeasures = [\"edge-l2-printed\", "
+        "\"edge-l2-printed:method=monte-carlo,counted=without-first\"]\n");
+    const DiscrepancyPlan planned = plan(study);
+    for (const Row& row : summarize(study, planned, run(study, planned, {}).rows).rows) {
+      const bool varies = row.text("pattern") == "random", random_tests = row.text("method") == "monte-carlo";
+      CHECK(std::isfinite(row.number("paper_z")) == (!varies && random_tests));
+      CHECK(std::holds_alternative<bool>(*row.find("paper_as_printed")) == (!varies && !random_tests));
+      CHECK(std::isnan(row.number("expected_z")));
+      // The one cell of table 4 that comes out only without the first point.
+      if (!varies && random_tests) CHECK(std::fabs(row.number("paper_z")) < 4);
+    }
+  }
+
+  TEST_CASE("a slope says of how many sets it is") {
+    const DiscrepancyStudy study = parse(
+        "patterns = [\"random\"]\nmeasures = [\"star-l2\"]\n[[discrepancy]]\nn = [16, 64]\ntrials = "
+        "9\n[[discrepancy]]\nn = [256]\ntrials = 5\n");
+    const DiscrepancyPlan planned = plan(study);
+    const DiscrepancySummary summary = summarize(study, planned, run(study, planned, {}).rows);
+    REQUIRE(summary.slopes.size() == 1);
+    CHECK(summary.slopes[0].number("trials") == 5);
+    CHECK(summary.slopes[0].number("points") == 3);
   }
 
   TEST_CASE("the rate of jittered points is theirs, -3/4, and of random ones -1/2") {
-    const DiscrepancyStudy study = parse(
-        "trials = 40\nn = [16, 64, 256]\npatterns = [\"jittered\", \"random\"]\nmeasures = [\"edge-l2\"]\n");
+    const DiscrepancyStudy study =
+        parse("trials = 40\nn = [16, 64, 256]\npatterns = [\"jittered\", \"random\"]\nmeasures = [\"edge-l2\"]\n");
     const DiscrepancyPlan planned = plan(study);
     const DiscrepancySummary summary = summarize(study, planned, run(study, planned, {}).rows);
     REQUIRE(summary.slopes.size() == 2);

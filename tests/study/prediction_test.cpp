@@ -6,6 +6,7 @@
 #include <string>
 
 #include "measure/discrepancy/edge_l2.h"
+#include "measure/discrepancy/expected.h"
 #include "measure/discrepancy/star_l2.h"
 #include "measure/statistics.h"
 #include "message.h"
@@ -19,7 +20,8 @@ using namespace moire;
 namespace {
 
 const std::string kLines =
-    "[[scene]]\nname = \"lines\"\nkind = \"edge\"\nwidth = 24\nheight = 24\nlines = { law = \"isotropic\", count = 80 }\n";
+    "[[scene]]\nname = \"lines\"\nkind = \"edge\"\nwidth = 24\nheight = 24\nlines = { law = \"isotropic\", count = 80 "
+    "}\n";
 const std::string kStill =
     "[[scene]]\nname = \"still\"\nkind = \"edge\"\nwidth = 24\nheight = 24\nthrough = [12.1, 11.7]\nnormal = 33\n";
 
@@ -34,10 +36,10 @@ Table rows_of(const std::string& text) {
 
 TEST_SUITE("unit") {
   TEST_CASE("at isotropic edges squared box errors are the squared edge discrepancies of the pixels' samples") {
-    const Summary summary = summarize(
-        rows_of("trials = 2\nspp = [4, 16]\nlayout = [\"pixel\", \"image\"]\nimages = \"none\"\npatterns = [\"random\", "
-                "\"jittered\", \"zaremba\", \"dart-throwing:k=100\"]\nmeasures = [\"error\", \"edge-ratio\"]\n" +
-                kLines));
+    const Summary summary = summarize(rows_of(
+        "trials = 2\nspp = [4, 16]\nlayout = [\"pixel\", \"image\"]\nimages = \"none\"\npatterns = [\"random\", "
+        "\"jittered\", \"zaremba\", \"dart-throwing:k=100\"]\nmeasures = [\"error\", \"edge-ratio\"]\n" +
+        kLines));
     CHECK(summary.rows.size() == 16);
     for (const Row& row : summary.rows) {
       CAPTURE(row.text("pattern"));
@@ -83,21 +85,38 @@ TEST_SUITE("unit") {
     CHECK_FALSE(ratio_of_sums({above, 1}, {below, 1}).interval.has_value());
   }
 
-  TEST_CASE("discrepancies among the measures are those of the pattern's own set") {
+  TEST_CASE("discrepancies among the measures are theory's, or root mean squares over sets of the pattern") {
     const Table rows = rows_of(
-        "trials = 2\nspp = [16]\nimages = \"none\"\npatterns = [\"jittered\", \"zaremba\"]\nmeasures = [\"error\", "
-        "\"star-l2\", \"edge-l2\"]\n" +
+        "trials = 2\nspp = [16]\nlayout = [\"pixel\", \"image\"]\nimages = \"none\"\npatterns = [\"jittered\", "
+        "\"zaremba\", \"dart-throwing:k=10\"]\nmeasures = [\"error\", \"star-l2\", \"edge-l2\"]\n" +
         kStill);
-    REQUIRE(rows.size() == 3);
+    REQUIRE(rows.size() == 10);
     for (const Row& row : rows) {
-      const PatternChoice choice(parse_spec(row.text("pattern"), "test"));
-      std::vector<double> x(16), y(16);
-      Pattern(choice, 16, Draw{1, static_cast<std::uint32_t>(row.number("trial"))}).fill_set({x, y});
-      CHECK(row.number("star_l2") == std::sqrt(star_l2_squared({x, y})));
-      CHECK(row.number("edge_l2") == std::sqrt(edge_l2_squared({x, y}, LineLaw::isotropic)));
       CHECK(row.find("star_l2_3d") == nullptr);
+      if (row.text("layout") == "image") {  // no pixel has such a set
+        CHECK(std::isnan(row.number("star_l2")));
+        CHECK(std::isnan(row.number("edge_l2_error")));
+        continue;
+      }
+      const PatternChoice choice(parse_spec(row.text("pattern"), "test"));
+      if (row.text("pattern") == "jittered") {
+        CHECK(row.number("star_l2") == std::sqrt(expected_star_l2_squared_jittered(16)));
+        CHECK(row.number("star_l2_error") == 0);
+        continue;
+      }
+      const std::uint32_t sets = choice.varies() ? 100 : 1;
+      double star = 0, edge = 0;
+      for (std::uint32_t t = 0; t < sets; ++t) {
+        std::vector<double> x(16), y(16);
+        Pattern(choice, 16, Draw{1, t}).fill_set({x, y});
+        star += star_l2_squared({x, y}) / sets;
+        edge += edge_l2_squared({x, y}, LineLaw::isotropic) / sets;
+      }
+      // Sums of 100 numbers in two orders: 100 half ulps.
+      CHECK(row.number("star_l2") == doctest::Approx(std::sqrt(star)).epsilon(100 * 0x1p-53));
+      CHECK(row.number("edge_l2") == doctest::Approx(std::sqrt(edge)).epsilon(100 * 0x1p-53));
+      CHECK((row.number("edge_l2_error") > 0) == choice.varies());
     }
-    CHECK(summarize(rows).correlations.empty());  // two points are no correlation
   }
 
   TEST_CASE("errors that are a power of a discrepancy correlate wholly with it, and others less") {
