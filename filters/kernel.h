@@ -92,13 +92,14 @@ class Kernel {
   double K_error() const noexcept { return K_error_; }
 
  private:
+  friend struct KernelWeights;
   struct Piece {
     double mid, half, inverse_half;
     std::size_t k_first, K_first;  // into coefficients_: degree_ + 1 of k, degree_ + 2 of K
   };
   double evaluate(std::size_t first, int degree, double t) const noexcept;
   void evaluate(std::size_t first, int degree, std::span<const double> t, double* out) const noexcept;
-  void weights_apart(const double* at, int begin, int last, double* value) const noexcept;
+  void weights_apart(std::span<const double> x, std::span<double> out, int begin, int last) const noexcept;
 
   std::vector<double> knots_;
   std::vector<Piece> pieces_;

@@ -66,10 +66,10 @@ std::string text_at(const nlohmann::ordered_json& object, const char* path) {
 
 }  // namespace
 
-std::string json_header(const Tool& tool, const Host& host, const StudyText& study) {
+std::string json_header(const Tool& tool, const Host& host, const StudyText& study, std::string_view schema) {
   nlohmann::ordered_json line;
   line["kind"] = "header";
-  line["schema"] = "moire.results/1";
+  line["schema"] = schema;
   line["tool"] = {{"version", tool.version},   {"commit", tool.commit}, {"build_type", tool.build_type},
                   {"compiler", tool.compiler}, {"flags", tool.flags},   {"fp_contract", tool.fp_contract}};
   line["host"] = {{"cpu", host.cpu}, {"cores", host.cores}, {"os", host.os}};

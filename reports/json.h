@@ -13,7 +13,10 @@
 namespace moire {
 
 // {"kind":"header","schema":"moire.results/1",...}: what the same study, seed and build always give; no line end.
-std::string json_header(const Tool& tool, const Host& host, const StudyText& study);
+// `schema` names what the lines after it are.
+inline constexpr std::string_view kResultsSchema = "moire.results/1", kBenchSchema = "moire.bench/1";
+std::string json_header(const Tool& tool, const Host& host, const StudyText& study,
+                        std::string_view schema = kResultsSchema);
 
 // One row as one line of JSON, cells in their order, without a line end. Doubles are the shortest that read back as
 // the same bits, with a point or exponent; NaN, infinities and empty cells are null; text that is not UTF-8 has its

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/expansion.h"
+#include "testimages/point_signs.h"
 #include "testimages/scene_args.h"
 
 namespace moire {
@@ -53,13 +54,8 @@ void mark_inside(const GivenCircle& circle, Pixel origin, std::span<const double
                  Vec2 reach, std::span<std::uint8_t> inside) noexcept {
   const LocalCircle at = seen_from(circle, origin, 0);
   const double doubt = at.doubt(reach.x, reach.y);
-  bool doubtful = false;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double e = at.excess(x[i], y[i]);
-    inside[i] |= static_cast<std::uint8_t>(e < -doubt);
-    doubtful |= std::fabs(e) <= doubt;
-  }
-  if (!doubtful) return;
+  const CircleSign excess{{2 * at.cx.hi, 2 * at.cy.hi}, at.power, doubt};
+  if (!sign_loops().back().mark_within(excess, x, y, inside.data())) return;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (std::fabs(at.excess(x[i], y[i])) > doubt) continue;
     inside[i] |= static_cast<std::uint8_t>(exact_sign(circle, origin, {x[i], y[i]}) <= 0);

@@ -69,6 +69,9 @@ Cover cover(const LocalCircle& at, Rect r) noexcept;
 // The same at all times of a motion; r relative to the corner (shift 0) or centre (0.5) of pixel `origin`.
 Cover cover(const GivenCircle& circle, Vec2 motion, Pixel origin, double shift, Rect r) noexcept;
 
+// What strips of pixel `origin` hold of the disk: see HasStrips (testimage.h).
+void strips(const GivenCircle& circle, Pixel origin, std::span<const double> sides, Strips out) noexcept;
+
 // The circle as a boundary holds it; `at` is seen from a pixel's centre.
 Circle boundary_circle(const GivenCircle& circle, const LocalCircle& at) noexcept;
 

@@ -43,6 +43,11 @@ class Disk {
 
   Cover cover(Pixel origin, Rect r) const noexcept { return moire::cover(circle_, motion_, origin, 0, r); }
 
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+    moire::strips(circle_, origin, sides, out);
+    return true;
+  }
+
   void boundary(Pixel origin, double, Boundary& out) const {
     out.circles.push_back(boundary_circle(circle_, seen_from(circle_, origin, 0.5)));
   }

@@ -60,6 +60,23 @@ Cover DiskUnion::cover(Pixel origin, Rect r) const noexcept {
   return found;
 }
 
+bool DiskUnion::strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+  const DiskIndex::Entry* only = nullptr;
+  const bool known = index_.visit(absolute(origin, {{0, 0}, {1, 1}}), [&](const DiskIndex::Entry& e) {
+    const bool first = only == nullptr;
+    only = &e;
+    return first;
+  });
+  if (!known) return false;
+  if (only != nullptr) {
+    moire::strips(only->circle, origin, sides, out);
+  } else {
+    for (const std::span<double> begin : {out.outer_begin, out.inner_begin}) std::fill(begin.begin(), begin.end(), 2);
+    for (const std::span<double> end : {out.outer_end, out.inner_end}) std::fill(end.begin(), end.end(), -1);
+  }
+  return true;
+}
+
 void DiskUnion::boundary(Pixel origin, double half_width, Boundary& out) const {
   const Rect window{{-half_width, -half_width}, {half_width, half_width}};
   const Rect from_corner{{0.5 - half_width, 0.5 - half_width}, {0.5 + half_width, 0.5 + half_width}};

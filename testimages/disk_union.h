@@ -26,6 +26,8 @@ class DiskUnion {
                    std::span<const double> t, std::span<std::uint8_t> inside) const noexcept;
   Cover cover(Pixel origin, Rect r) const noexcept;
   void boundary(Pixel origin, double half_width, Boundary& out) const;
+  // Where at most one disk is near the pixel.
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept;
   Vec2 motion() const noexcept { return motion_; }
 
  private:

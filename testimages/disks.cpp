@@ -70,6 +70,9 @@ class Disks {
     disks_.contains_at(run, x, y, t, inside);
   }
   Cover cover(Pixel origin, Rect r) const noexcept { return disks_.cover(origin, r); }
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+    return disks_.strips(origin, sides, out);
+  }
   void boundary(Pixel origin, double half_width, Boundary& out) const { disks_.boundary(origin, half_width, out); }
 
   // In the order of the list, row by row.

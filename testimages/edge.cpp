@@ -1,11 +1,13 @@
 // A straight edge: the half-plane (p - through) . n >= 0. The simplest image with all frequencies across one direction.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/dd_math.h"
 #include "core/expansion.h"
 #include "core/rounding.h"
 #include "curve/sharp_polygon.h"
+#include "testimages/point_signs.h"
 #include "testimages/scene_args.h"
 #include "testimages/testimage.h"
 
@@ -58,19 +60,13 @@ class Edge {
   void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
                 std::span<std::uint8_t> inside) const noexcept {
     const std::size_t n = x.size() / run.size();
+    const SignLoops& loops = sign_loops().back();
     for (std::size_t p = 0; p < run.size(); ++p) {
       const auto [c, far] = offset(run[p], 0);
       // Below 3 u (|nx| + |ny|) + 2 u |s| for the sum and u |c| for the rounded offset; |s| <= |nx| + |ny| + |c|.
       const double doubt = 8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c)) + far;
-      bool doubtful = false;
-      const std::size_t end = (p + 1) * n;
-      for (std::size_t i = p * n; i < end; ++i) {
-        const double s = n_.x * x[i] + n_.y * y[i] - c;
-        inside[i] = s >= 0;
-        doubtful |= std::fabs(s) <= doubt;
-      }
-      if (!doubtful) continue;
-      for (std::size_t i = p * n; i < end; ++i) {
+      if (!loops.mark_above({n_, c, doubt}, x.subspan(p * n, n), y.subspan(p * n, n), &inside[p * n])) continue;
+      for (std::size_t i = p * n; i < (p + 1) * n; ++i) {
         if (std::fabs(n_.x * x[i] + n_.y * y[i] - c) <= doubt) inside[i] = exact_sign(run[p], {x[i], y[i]}) >= 0;
       }
     }
@@ -107,6 +103,35 @@ class Edge {
     return Cover::partial;
   }
 
+  // Along a line of constant y the edge is at x = (c - ny y) / nx; over a strip it is between where it is on its sides.
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+    const auto [c, far] = offset(origin, 0);
+    // As in contains(), twice: half of it is above the roundings here, which are below u (|ny| + 2 |c|) + far before
+    // and 3 u |x| after the product with 1 / nx. A normal next to upright leans by 2^-1000, which is nothing beside
+    // that.
+    const double doubt = 2 * (8 * kUnit * (std::fabs(n_.x) + std::fabs(n_.y) + std::fabs(c)) + far);
+    const double lean = std::copysign(std::max(std::fabs(n_.x), 0x1p-1000), n_.x), inverse = 1 / lean;
+    const double margin = doubt * std::fabs(inverse), ny = n_.y;
+    const bool to_the_right = lean > 0;
+    const std::size_t count = sides.size() - 1;
+    double* __restrict outer = to_the_right ? out.outer_begin.data() : out.outer_end.data();
+    double* __restrict inner = to_the_right ? out.inner_begin.data() : out.inner_end.data();
+    const double* __restrict side = sides.data();
+    const double out_margin = to_the_right ? -margin : margin;
+    for (std::size_t j = 0; j < count; ++j) {
+      const double a = (c - ny * side[j]) * inverse, b = (c - ny * side[j + 1]) * inverse;
+      const double left = std::min(a, b), right = std::max(a, b);
+      outer[j] = (to_the_right ? left : right) + out_margin;
+      inner[j] = (to_the_right ? right : left) - out_margin;
+    }
+    const std::span<double> outer_open = to_the_right ? out.outer_end : out.outer_begin;
+    const std::span<double> inner_open = to_the_right ? out.inner_end : out.inner_begin;
+    const double open = to_the_right ? HUGE_VAL : -HUGE_VAL;
+    std::fill_n(outer_open.begin(), count, open);
+    std::fill_n(inner_open.begin(), count, open);
+    return true;
+  }
+
   void boundary(Pixel origin, double half_width, Boundary& out) const {
     const Offset c = exact_offset(origin, 0.5);
     const Vec2 swept = sweep();
@@ -118,6 +143,31 @@ class Edge {
     clipper.split(clipper.window(), SharpClipper::kWindow, &inside, nullptr);
     SharpClipper::append(inside, 1, out);
     out.area_error += clipper.area_error();
+  }
+
+  // The corner of the window on the side of the edge where its centre is not: a triangle, or, beyond the nearer one of
+  // two more corners, a trapezoid. None for an edge that sweeps.
+  std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const noexcept {
+    if (travel_.hi != 0) return std::nullopt;
+    const auto [c, far] = offset(origin, 0.5);
+    const double h = half_width, size = std::fabs(c);
+    const double p = std::max(std::fabs(n_.x), std::fabs(n_.y)), q = std::min(std::fabs(n_.x), std::fabs(n_.y));
+    // How far the edge is inside the farthest corner, in values of n . x: four roundings of at most (p + q) h <= 2 p h.
+    const double deep = p * h + q * h - size, doubt = 8 * kUnit * p * h + far;
+    // Each with its three roundings, those of the trapezoid at most h before the last product.
+    double corner = 0, rounding = 0;
+    if (deep > 2 * q * h) {
+      corner = 2 * h * (h - size / p);
+      rounding = 6 * h * h;
+    } else if (deep > 0) {
+      corner = 0.5 * (deep / p) * (deep / q);
+      rounding = 3 * corner;
+    }
+    if (c <= 0) rounding += 8 * h * h;  // taken from the window, which is itself rounded
+    // The corner grows by the edge's extent along the axis of the lesser component, at most 2 h, over the greater one.
+    const double reach = q > 0 ? std::min((std::max(deep, 0.0) + doubt) / q, 2 * h) : 2 * h;
+    const double bound = (doubt * reach / p + rounding * kUnit) * (1 + 0x1p-40);
+    return BoxIntegral{c > 0 ? corner : 4 * h * h - corner, bound};
   }
 
   StoredDoubles stored() const {
@@ -141,9 +191,14 @@ class Edge {
     double error;
   };
   Offset exact_offset(Pixel origin, double shift) const noexcept {
-    const Dd x = Dd(through_.x) - dd_from_integer(origin.x) - Dd(shift);
-    const Dd y = Dd(through_.y) - dd_from_integer(origin.y) - Dd(shift);
+    const Dd x = from(through_.x, origin.x, shift), y = from(through_.y, origin.y, shift);
     return {Dd(n_.x) * x + Dd(n_.y) * y, 0x1p-100 * (std::fabs(n_.x * x.hi) + std::fabs(n_.y * y.hi)) + travel_error_};
+  }
+  static Dd from(double through, std::int64_t origin, double shift) noexcept {
+    // Where the pixel is a double with its shift, the difference is exact.
+    constexpr std::int64_t kFar = std::int64_t{1} << 51;
+    if (-kFar < origin && origin < kFar) return two_sum(through, -(static_cast<double>(origin) + shift));
+    return Dd(through) - dd_from_integer(origin) - Dd(shift);
   }
   // The same, the value rounded.
   std::pair<double, double> offset(Pixel origin, double shift) const noexcept {

@@ -65,6 +65,9 @@ class NoiseField {
     disks_.contains(run, x, y, inside);
   }
   Cover cover(Pixel origin, Rect r) const noexcept { return disks_.cover(origin, r); }
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+    return disks_.strips(origin, sides, out);
+  }
   void boundary(Pixel origin, double half_width, Boundary& out) const { disks_.boundary(origin, half_width, out); }
 
   // With the image's size these are all there is to know: the law of noise_disks.h makes the disks from them.

@@ -84,6 +84,22 @@ concept HasBoxIntegral = requires(const S& s, Pixel origin, double half_width) {
   { s.box_integral(origin, half_width) } -> std::same_as<std::optional<BoxIntegral>>;
 };
 
+// What strips of a pixel hold of a scene, x and y from the pixel's upper left corner. For every point of the pixel in
+// the closed strip j: outside the scene if x < outer_begin[j] or x > outer_end[j], inside if inner_begin[j] <= x <=
+// inner_end[j]; begin > end: no such x. Numbers may lie beyond the pixel or be infinite, but are no NaN.
+struct Strips {
+  std::span<double> outer_begin, outer_end, inner_begin, inner_end;
+};
+
+// A scene that is convex in most pixels may know at once what strips of a pixel hold of it: strip j has sides[j] <= y
+// <= sides[j + 1], ascending, 0 <= y <= 1. Promises as of cover(), about time 0. False where it does not know: then
+// `out` means nothing.
+template <class S>
+concept HasStrips = requires(const S& s, Pixel origin, std::span<const double> sides, Strips out) {
+  { s.strips(origin, sides, out) }
+  noexcept->std::same_as<bool>;
+};
+
 // One constant record per kind of scene.
 struct TestImageInfo {
   std::string_view name, title, cite;
@@ -101,6 +117,7 @@ struct TestImageInfo {
   Vec2 (*sweep)(const void*) noexcept;
   void (*contains_at)(const void*, std::span<const Pixel>, std::span<const double>, std::span<const double>,
                       std::span<const double>, std::span<std::uint8_t>) noexcept;
+  bool (*strips)(const void*, Pixel, std::span<const double>, Strips) noexcept;  // null: has none
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -136,6 +153,11 @@ class TestImage {
   std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const {
     if (info_->box_integral == nullptr) return std::nullopt;
     return info_->box_integral(self_.get(), origin, half_width);
+  }
+  // See HasStrips.
+  bool has_strips() const noexcept { return info_->strips != nullptr; }
+  bool strips(Pixel origin, std::span<const double> sides, Strips out) const noexcept {
+    return info_->strips != nullptr && info_->strips(self_.get(), origin, sides, out);
   }
   // See Moves; (0, 0) for scenes that cannot move.
   Vec2 motion() const noexcept { return info_->motion == nullptr ? Vec2{} : info_->motion(self_.get()); }
@@ -208,6 +230,17 @@ constexpr auto contains_at_of()
   }
 }
 
+template <class S>
+constexpr auto strips_of() -> bool (*)(const void*, Pixel, std::span<const double>, Strips) noexcept {
+  if constexpr (HasStrips<S>) {
+    return [](const void* p, Pixel o, std::span<const double> sides, Strips out) noexcept {
+      return static_cast<const S*>(p)->strips(o, sides, out);
+    };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
   return {t.name,
@@ -224,7 +257,8 @@ constexpr TestImageInfo describe(const TestImageText& t) {
           box_integral_of<S>(),
           motion_of<S>(),
           sweep_of<S>(),
-          contains_at_of<S>()};
+          contains_at_of<S>(),
+          strips_of<S>()};
 }
 
 }  // namespace moire

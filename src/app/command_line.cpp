@@ -20,6 +20,7 @@
 namespace moire {
 namespace {
 
+constexpr int kMaxRepeats = 1000;
 constexpr int kMaxSets = 1'000'000;  // of a pattern, as in studies
 
 // The commands. Names of options are given once, in the two functions of a command.
@@ -240,6 +241,26 @@ Command discrepancy_options(const CommandWords& w) {
   return options;
 }
 
+CommandWords bench_words(CLI::App& app) {
+  CommandWords w(app, "bench", "Run time against error, for every case of a study", "moire bench -o out/bench");
+  w.positional("STUDY", "a study of images, a file (TOML) or a built-in name; default: bench");
+  w.option("-o", "DIR", "write bench.csv, bench.jsonl, bench.svg and report.md; DIR is made if it is not there");
+  w.option("--repeats", "R", "timings of each case, of which the median is taken, 1 to 1000", "5");
+  w.option("--threads", "N", "most threads to try, 1 to 1024; default: as many as there are cores");
+  w.flag("--json", "as a JSON object, all digits");
+  return w;
+}
+
+Command bench_options(const CommandWords& w) {
+  BenchOptions options;
+  options.study = w.has("STUDY") ? w.text("STUDY") : "bench";
+  options.folder = w.text("-o");
+  options.repeats = static_cast<int>(w.integer("--repeats", 1, kMaxRepeats));
+  options.threads = w.threads();
+  options.json = w.is_set("--json");
+  return options;
+}
+
 // The first word where a command belongs.
 [[noreturn]] void refuse_command(const CLI::App& app, const std::vector<std::string_view>& commands) {
   const std::vector<std::string> words = app.remaining();
@@ -264,7 +285,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   Entry entries[] = {{list_words(app), list_options},         {run_words(app), run_options},
                      {render_words(app), render_options},     {exact_words(app), exact_options},
                      {points_words(app), points_options},     {filters_words(app), filters_options},
-                     {spectrum_words(app), spectrum_options}, {discrepancy_words(app), discrepancy_options}};
+                     {spectrum_words(app), spectrum_options}, {discrepancy_words(app), discrepancy_options},
+                     {bench_words(app), bench_options}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -87,8 +87,16 @@ struct DiscrepancyOptions {
   bool json = false;
 };
 
+struct BenchOptions {
+  std::string study;   // a file, or the name of a built-in study
+  std::string folder;  // of the files, "": none
+  int repeats = 5;
+  int threads = 0;  // the most that are tried; 0: as many as there are cores
+  bool json = false;
+};
+
 using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions,
-                             FiltersOptions, SpectrumOptions, DiscrepancyOptions>;
+                             FiltersOptions, SpectrumOptions, DiscrepancyOptions, BenchOptions>;
 
 Exit execute(const TextOptions& options);
 Exit execute(const ListOptions& options);
@@ -99,5 +107,6 @@ Exit execute(const PointsOptions& options);
 Exit execute(const FiltersOptions& options);
 Exit execute(const SpectrumOptions& options);
 Exit execute(const DiscrepancyOptions& options);
+Exit execute(const BenchOptions& options);
 
 }  // namespace moire

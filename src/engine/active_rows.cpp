@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <numeric>
 
 namespace moire {
 namespace {
@@ -13,8 +15,8 @@ struct Block {
 
 class Enumerator {
  public:
-  Enumerator(const TestImage& scene, double radius, std::vector<std::vector<Run>>& rows)
-      : scene_(scene), radius_(radius), rows_(rows) {}
+  Enumerator(const TestImage& scene, double radius)
+      : scene_(scene), radius_(radius), last_(static_cast<std::size_t>(scene.grid().height), kNone) {}
 
   // Blocks are visited so that each row receives its runs from left to right.
   void visit(const Block& b) {
@@ -22,6 +24,11 @@ class Enumerator {
     const Cover cover = classify(scene_, radius_, {b.x0, b.y0}, width, height);
     if (cover != Cover::partial || (width == 1 && height == 1)) {
       for (int y = b.y0; y < b.y1; ++y) append(y, {b.x0, b.x1, cover});
+      return;
+    }
+    if (std::int64_t{width} * height <= kSmall) {
+      for (int y = b.y0; y < b.y1; ++y)
+        for (int x = b.x0; x < b.x1; ++x) append(y, {x, x + 1, classify(scene_, radius_, {x, y})});
       return;
     }
     if (width >= height) {
@@ -35,19 +42,40 @@ class Enumerator {
     }
   }
 
+  // The runs of all rows, row by row.
+  ActiveRows rows(Grid grid) const {
+    std::vector<std::size_t> row_begin(static_cast<std::size_t>(grid.height) + 1);
+    for (const Found& f : found_) ++row_begin[static_cast<std::size_t>(f.y) + 1];
+    std::partial_sum(row_begin.begin(), row_begin.end(), row_begin.begin());
+    std::vector<Run> runs(found_.size());
+    std::vector<std::size_t> next(row_begin.begin(), row_begin.end() - 1);
+    for (const Found& f : found_) runs[next[static_cast<std::size_t>(f.y)]++] = f.run;
+    return ActiveRows(grid, std::move(runs), std::move(row_begin));
+  }
+
  private:
+  // A boundary that meets a block of so few pixels meets about half of them: halving further takes more questions.
+  static constexpr int kSmall = 16;
+  static constexpr std::size_t kNone = SIZE_MAX;
+
   void append(int y, Run run) {
-    std::vector<Run>& row = rows_[static_cast<std::size_t>(y)];
-    if (!row.empty() && row.back().cover == run.cover) {
-      row.back().x1 = run.x1;
+    std::size_t& last = last_[static_cast<std::size_t>(y)];
+    if (last != kNone && found_[last].run.cover == run.cover) {
+      found_[last].run.x1 = run.x1;
     } else {
-      row.push_back(run);
+      last = found_.size();
+      found_.push_back({run, y});
     }
   }
 
+  struct Found {
+    Run run;
+    int y;
+  };
   const TestImage& scene_;
   double radius_;
-  std::vector<std::vector<Run>>& rows_;
+  std::vector<Found> found_;
+  std::vector<std::size_t> last_;  // of each row, in found_
 };
 
 }  // namespace
@@ -78,15 +106,9 @@ std::span<const Run> ActiveRows::row(int y) const noexcept {
 
 ActiveRows enumerate(const TestImage& scene, double radius) {
   const Grid grid = scene.grid();
-  std::vector<std::vector<Run>> rows(static_cast<std::size_t>(grid.height));
-  Enumerator(scene, radius, rows).visit({0, grid.width, 0, grid.height});
-  std::vector<Run> runs;
-  std::vector<std::size_t> row_begin{0};
-  for (const auto& row : rows) {
-    runs.insert(runs.end(), row.begin(), row.end());
-    row_begin.push_back(runs.size());
-  }
-  return ActiveRows(grid, std::move(runs), std::move(row_begin));
+  Enumerator enumerator(scene, radius);
+  enumerator.visit({0, grid.width, 0, grid.height});
+  return enumerator.rows(grid);
 }
 
 }  // namespace moire

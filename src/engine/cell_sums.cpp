@@ -2,13 +2,73 @@
 
 #include <algorithm>
 
+#include "core/instruction_sets.h"
+#include "core/lanes.h"
+#include "engine/count_inside.h"
+
 namespace moire {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-constexpr std::size_t kChunk = 512;  // a multiple of kLanes: chunks do not change which sum a sample goes to
+constexpr std::size_t kSums = 2 * kLanes;  // interleaved partial sums
+constexpr std::size_t kChunk = 512;        // a multiple of kSums: chunks do not change which sum a sample goes to
 
 double fold(const double* s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+
+// Adds the samples' weights wx wy to the first eight sums, and those of samples inside, f = 1, to the next eight.
+[[gnu::always_inline]] inline void add_products(const double* __restrict wx, const double* __restrict wy,
+                                                const double* __restrict f, std::size_t n, double* __restrict sums) {
+  Lanes k_low, k_high, kf_low, kf_high;
+  load(sums, k_low);
+  load(sums + kLanes, k_high);
+  load(sums + kSums, kf_low);
+  load(sums + kSums + kLanes, kf_high);
+  const auto add = [&](std::size_t i, Lanes& k_sum, Lanes& kf_sum) {
+    Lanes x, y, inside;
+    load(wx + i, x);
+    load(wy + i, y);
+    load(f + i, inside);
+    const Lanes k = x * y;
+    k_sum += k;
+    kf_sum += k * inside;
+  };
+  std::size_t i = 0;
+  for (; i + kSums <= n; i += kSums) {
+    add(i, k_low, kf_low);
+    add(i + kLanes, k_high, kf_high);
+  }
+  store(k_low, sums);
+  store(k_high, sums + kLanes);
+  store(kf_low, sums + kSums);
+  store(kf_high, sums + kSums + kLanes);
+  for (std::size_t sum = 0; i < n; ++i, ++sum) {
+    const double k = wx[i] * wy[i];
+    sums[sum] += k;
+    sums[kSums + sum] += k * f[i];
+  }
+}
+
+using Products = void (*)(const double*, const double*, const double*, std::size_t, double*);
+
+void products_plain(const double* wx, const double* wy, const double* f, std::size_t n, double* sums) {
+  add_products(wx, wy, f, n, sums);
+}
+#if MOIRE_HAS_AVX
+[[MOIRE_AVX2]] void products_avx2(const double* wx, const double* wy, const double* f, std::size_t n, double* sums) {
+  add_products(wx, wy, f, n, sums);
+}
+[[MOIRE_AVX512]] void products_avx512(const double* wx, const double* wy, const double* f, std::size_t n,
+                                      double* sums) {
+  add_products(wx, wy, f, n, sums);
+}
+constexpr Products kProducts[] = {products_plain, products_avx2, products_avx512};
+#else
+constexpr Products kProducts[] = {products_plain};
+#endif
+
+void multiply(const double* wx, const double* wy, const double* f, std::size_t n, double* sums) {
+  static const Products best = kProducts[usable_sets() - 1];
+  best(wx, wy, f, n, sums);
+}
 
 }  // namespace
 
@@ -17,7 +77,8 @@ CellSums::CellSums(const Kernel& kernel, int reach) : kernel_(kernel), reach_(re
   offset_.resize(kChunk);
   kx_.resize(side * kChunk);
   ky_.resize(side * kChunk);
-  partial_.resize(side * side * 2 * kLanes);
+  inside_.resize(kChunk);
+  partial_.resize(side * side * 2 * kSums);
 }
 
 void CellSums::weigh(std::span<const double> coordinate, std::vector<double>& weighed, std::vector<double>& weights) {
@@ -31,12 +92,29 @@ void CellSums::weigh(std::span<const double> coordinate, std::vector<double>& we
   }
 }
 
+void CellSums::count_own(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
+                         OwnCount& own) const {
+  const double r = kernel_.radius();
+  if (r >= 0.5) {  // the window holds the whole cell
+    own.samples += static_cast<std::int64_t>(x.size());
+    own.inside += count_inside(inside);
+    return;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double dx = x[i] - 0.5, dy = y[i] - 0.5;
+    if (dx >= -r && dx < r && dy >= -r && dy < r) {
+      ++own.samples;
+      own.inside += inside[i];
+    }
+  }
+}
+
 void CellSums::operator()(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
                           std::span<const std::uint8_t> needed, std::span<WeightSum> sums, OwnCount& own) {
   own = {};
   if (kernel_.is_unit_box()) {
     // Every weight is exactly 1: the sums are counts, exact in any order.
-    for (const std::uint8_t f : inside) own.inside += f;
+    own.inside = count_inside(inside);
     own.samples = static_cast<std::int64_t>(inside.size());
     sums[0] = {static_cast<double>(own.samples), static_cast<double>(own.inside)};
     return;
@@ -47,38 +125,17 @@ void CellSums::operator()(std::span<const double> x, std::span<const double> y, 
     const std::size_t n = std::min(kChunk, x.size() - first);
     weigh(x.subspan(first, n), weighed_x_, kx_);
     weigh(y.subspan(first, n), weighed_y_, ky_);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double dx = x[first + i] - 0.5, dy = y[first + i] - 0.5, r = kernel_.radius();
-      if (dx >= -r && dx < r && dy >= -r && dy < r) {
-        ++own.samples;
-        own.inside += inside[first + i];
-      }
-    }
+    count_own(x.subspan(first, n), y.subspan(first, n), inside.subspan(first, n), own);
+    std::copy_n(inside.begin() + static_cast<std::ptrdiff_t>(first), n, inside_.begin());
     for (std::size_t p = 0; p < side * side; ++p) {
       if (needed[p] == 0) continue;
-      const double* __restrict wx = kx_.data() + (p % side) * kChunk;
-      const double* __restrict wy = ky_.data() + (p / side) * kChunk;
-      const std::uint8_t* __restrict f = inside.data() + first;
-      double* __restrict k_sum = partial_.data() + p * 2 * kLanes;
-      double* __restrict kf_sum = k_sum + kLanes;
-      std::size_t i = 0;
-      for (; i + kLanes <= n; i += kLanes) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const double k = wx[i + lane] * wy[i + lane];
-          k_sum[lane] += k;
-          kf_sum[lane] += k * static_cast<double>(f[i + lane]);
-        }
-      }
-      for (; i < n; ++i) {
-        const double k = wx[i] * wy[i];
-        k_sum[i % kLanes] += k;
-        kf_sum[i % kLanes] += k * static_cast<double>(f[i]);
-      }
+      multiply(kx_.data() + (p % side) * kChunk, ky_.data() + (p / side) * kChunk, inside_.data(), n,
+               partial_.data() + p * 2 * kSums);
     }
   }
   for (std::size_t p = 0; p < side * side; ++p) {
     if (needed[p] != 0)
-      sums[p] = {fold(partial_.data() + p * 2 * kLanes), fold(partial_.data() + p * 2 * kLanes + kLanes)};
+      sums[p] = {fold(partial_.data() + p * 2 * kSums), fold(partial_.data() + p * 2 * kSums + kSums)};
   }
 }
 

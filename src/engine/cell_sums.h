@@ -36,11 +36,14 @@ class CellSums {
  private:
   const Kernel& kernel_;
   int reach_;
+  void count_own(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
+                 OwnCount& own) const;
   void weigh(std::span<const double> coordinate, std::vector<double>& weighed, std::vector<double>& weights);
 
   // The coordinates of the chunk that kx_ and ky_ belong to: a pattern with the same points in every cell is weighed
   // once.
   std::vector<double> weighed_x_, weighed_y_;
+  std::vector<double> inside_;            // of a chunk of samples, 1 or 0
   std::vector<double> offset_, kx_, ky_;  // weights of a chunk of samples, by pixel offset
   std::vector<double> partial_;           // eight sums of k, then eight of k f, by needed pixel
 };

@@ -12,7 +12,9 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "core/parallel.h"
+#include "engine/box_render.h"
 #include "engine/cell_sums.h"
+#include "engine/estimate.h"
 
 namespace moire {
 namespace {
@@ -145,13 +147,8 @@ class Renderer {
     }
   }
 
-  struct Value {
-    double value;
-    bool fallback;
-  };
-
   // Pixel (x, y) from the sums over all cells that its window touches; `rows` are the cell rows y - reach to y + reach.
-  Value estimate(int x, int y, std::span<const CellRow* const> rows) const {
+  Estimate estimate(int x, int y, std::span<const CellRow* const> rows) const {
     double k = 0, kf = 0;
     for (std::size_t j = 0; j < side_; ++j) {
       for (std::size_t i = 0; i < side_; ++i) {
@@ -163,15 +160,12 @@ class Renderer {
         kf += s.kf;
       }
     }
-    // Adding +0.0 turns a negative zero, from a negative lobe, into a positive one.
-    const double rho = samples_.density();
-    if (estimator_ == Estimator::unnormalised) return {kf / rho + 0.0, false};
-    if (estimator_ == Estimator::ratio && k >= rho / 4) return {kf / k + 0.0, false};
-    const CellRow& own_row = *rows[static_cast<std::size_t>(reach_)];
-    const OwnCount& own = own_row.own[own_row.index(x)];
-    const double mean =
-        own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples) : inside_center({x, y});
-    return {mean + (kf - mean * k) / rho + 0.0, estimator_ == Estimator::ratio};
+    return moire::estimate(estimator_, {k, kf}, samples_.density(), [&] {
+      const CellRow& own_row = *rows[static_cast<std::size_t>(reach_)];
+      const OwnCount& own = own_row.own[own_row.index(x)];
+      return own.samples > 0 ? static_cast<double>(own.inside) / static_cast<double>(own.samples)
+                             : inside_center({x, y});
+    });
   }
 
  private:
@@ -265,11 +259,14 @@ void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::
 Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive) {
   assert(!scene.moves() || samples.has_time());
+  if (samples.pattern() != nullptr && filter.kernel().is_unit_box() && !scene.moves()) {
+    return render_box(scene, *samples.pattern(), estimator, rows, exhaustive);
+  }
   const Grid grid = rows.grid();
   const int reach = filter.apron();
   Rendered out;
   const bool linear = estimator == Estimator::unnormalised;
-  out.pixels = exhaustive ? Pixels::every : linear ? Pixels::covered : Pixels::active;
+  out.pixels = rendered_pixels(estimator, exhaustive);
   out.samples_total = samples.total(grid, reach);
   const Wanted wanted = wanted_pixels(rows, out.pixels);
   std::vector<std::size_t> first_value{0};  // of each row

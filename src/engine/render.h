@@ -30,12 +30,20 @@ enum class Pixels : std::uint8_t {
   every     // exhaustive
 };
 
+// Those that an estimator's image consists of.
+constexpr Pixels rendered_pixels(Estimator estimator, bool exhaustive) {
+  if (exhaustive) return Pixels::every;
+  return estimator == Estimator::unnormalised ? Pixels::covered : Pixels::active;
+}
+
 struct Rendered {
   Pixels pixels = Pixels::active;
-  std::vector<double> value;           // of these pixels, row-major
-  std::int64_t samples_total = 0;      // samples of the image grown by the filter's apron
-  std::int64_t samples_evaluated = 0;  // point tests made of samples; a fallback's look at the pixel's centre is none
-  std::int64_t fallbacks = 0;          // active pixels whose weight sum was too small
+  std::vector<double> value;       // of these pixels, row-major
+  std::int64_t samples_total = 0;  // samples of the image grown by the filter's apron
+  // Point tests made of samples. What was counted without one is not among them (box_count.h), nor is a fallback's look
+  // at the pixel's centre.
+  std::int64_t samples_evaluated = 0;
+  std::int64_t fallbacks = 0;  // active pixels whose weight sum was too small
 };
 
 // Whether pixels of a run of this cover have a value of their own.

@@ -36,6 +36,11 @@ class Samples {
   Samples(const Pattern& pattern) : source_(&pattern) {}   // NOLINT: a pattern is samples
   Samples(const AreaPoints& points) : source_(&points) {}  // NOLINT
 
+  // The pattern, null for a set over the image.
+  const Pattern* pattern() const noexcept {
+    const auto* pattern = std::get_if<const Pattern*>(&source_);
+    return pattern == nullptr ? nullptr : *pattern;
+  }
   // Samples per pixel, on the average over the image and its apron.
   double density() const noexcept;
   // Samples of an image and its apron.

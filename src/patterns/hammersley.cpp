@@ -26,8 +26,14 @@ struct Hammersley {
   static constexpr bool kHasTime = true;
   Instances points;
 
-  Hammersley(const Args& args, int n, Draw draw) : points(args, draw, hammersley_set(n, true)) {}
+  Hammersley(const Args& args, int n, Draw draw) : points(args, draw, hammersley_set(n, true), Instances::kWithCells) {}
   void fill(std::span<const Pixel> run, Points out) const noexcept { points.fill(run, out); }
+  static constexpr int kLeastForCells = Instances::kLeastForCells;
+  CellGrid cells(Pixel pixel) const noexcept { return points.cells(pixel); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return points.take_cells(pixel, counted, filled, out);
+  }
 
   static constexpr auto area_count = any_area_count;
   static void fill_area(const Args& args, Grid area, Draw draw, Points out) {

@@ -23,6 +23,13 @@ struct Jittered {
     }
   }
 
+  static constexpr int kLeastForCells = JitteredGrid::kLeastForCells;
+  CellGrid cells(Pixel) const noexcept { return grid.cells(); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return grid.take_cells(pixel_key(draw, pixel), counted, filled, out);
+  }
+
   static constexpr auto area_count = JitteredArea::count;
   static constexpr auto fill_area = JitteredArea::fill;
 };

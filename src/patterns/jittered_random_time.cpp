@@ -25,6 +25,13 @@ struct JitteredRandomTime {
     }
   }
 
+  static constexpr int kLeastForCells = JitteredGrid::kLeastForCells;
+  CellGrid cells(Pixel) const noexcept { return grid.cells(); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return grid.take_cells(pixel_key(draw, pixel), counted, filled, out);
+  }
+
   static constexpr auto area_count = JitteredArea::count;
   static void fill_area(const Args& args, Grid area, Draw d, Points out) {
     JitteredArea::fill(args, area, d, out);

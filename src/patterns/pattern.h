@@ -15,6 +15,7 @@
 
 #include "core/args.h"
 #include "core/geometry.h"
+#include "patterns/cells.h"
 
 namespace moire {
 
@@ -69,6 +70,19 @@ concept FillsArea = requires(const Args& args, Grid area, std::int64_t n, Draw d
   P::fill_area(args, area, draw, out);
 };
 
+// A pattern may know how its points lie in cells (cells.h). cells() says it for a pixel; take_cells() counts the points
+// of some cells, and writes x and y of those of others, the bits of fill() in any order. No cell may be named twice.
+// `out` has room for n points. Only asked where t is not wanted, and from kLeastForCells points a pixel on: with fewer
+// it is faster to test all (on edges and disks, whose boundaries are the fastest to follow).
+template <class P>
+concept HasCells = requires(const P& p, Pixel pixel, std::span<const CellSpan> cells, Points out) {
+  { P::kLeastForCells } -> std::convertible_to<int>;
+  { p.cells(pixel) }
+  noexcept->std::same_as<CellGrid>;
+  { p.take_cells(pixel, cells, cells, out) }
+  noexcept->std::same_as<CellPoints>;
+};
+
 // Most points that such a set may have: 2^26, some 2 GiB while they are made and sorted, 3 GiB with times.
 inline constexpr std::int64_t kMaxAreaPoints = std::int64_t{1} << 26;
 
@@ -95,6 +109,9 @@ struct PatternInfo {
   std::int64_t (*area_count)(const Args&, Grid, std::int64_t);  // null: does not fill areas
   void (*fill_area)(const Args&, Grid, Draw, Points);           // null with area_count
   bool has_time;                                                // whether points have a t
+  int least_for_cells;                                          // fewest points a pixel that come in cells; 0: never
+  CellGrid (*cells)(const void*, Pixel) noexcept;
+  CellPoints (*take_cells)(const void*, Pixel, std::span<const CellSpan>, std::span<const CellSpan>, Points) noexcept;
 };
 
 // Every pattern of the program, in the order of patterns/CMakeLists.txt.
@@ -139,6 +156,15 @@ class Pattern {
   void fill(std::span<const Pixel> run, Points out) const noexcept { info_->fill(self_.get(), run, out); }
   // The one set of this draw, n() points.
   void fill_set(Points out) const noexcept { info_->fill_set(self_.get(), out); }
+  // See HasCells.
+  bool has_cells() const noexcept { return info_->least_for_cells > 0 && n_ >= info_->least_for_cells; }
+  // A grid of no cells where nothing is known. Precondition: has_cells().
+  CellGrid cells(Pixel pixel) const noexcept { return info_->cells(self_.get(), pixel); }
+  // Counts the points of `counted` and writes those of `filled`. Precondition: cells() of the pixel has some.
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return info_->take_cells(self_.get(), pixel, counted, filled, out);
+  }
 
  private:
   const PatternInfo* info_;
@@ -171,6 +197,35 @@ constexpr auto fill_area_of() -> void (*)(const Args&, Grid, Draw, Points) {
   return nullptr;
 }
 
+template <class P>
+constexpr int least_for_cells_of() {
+  if constexpr (HasCells<P>) {
+    return P::kLeastForCells;
+  } else {
+    return 0;
+  }
+}
+
+template <class P>
+constexpr auto cells_of() -> CellGrid (*)(const void*, Pixel) noexcept {
+  if constexpr (HasCells<P>) {
+    return [](const void* p, Pixel pixel) noexcept { return static_cast<const P*>(p)->cells(pixel); };
+  } else {
+    return nullptr;
+  }
+}
+
+template <class P>
+constexpr auto take_cells_of()
+    -> CellPoints (*)(const void*, Pixel, std::span<const CellSpan>, std::span<const CellSpan>, Points) noexcept {
+  if constexpr (HasCells<P>) {
+    return [](const void* p, Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+              Points out) noexcept { return static_cast<const P*>(p)->take_cells(pixel, counted, filled, out); };
+  } else {
+    return nullptr;
+  }
+}
+
 template <PatternType P>
 constexpr PatternInfo describe(const PatternText& t) {
   return {
@@ -192,7 +247,10 @@ constexpr PatternInfo describe(const PatternText& t) {
       },
       area_count_of<P>(),
       fill_area_of<P>(),
-      HasTime<P>};
+      HasTime<P>,
+      least_for_cells_of<P>(),
+      cells_of<P>(),
+      take_cells_of<P>()};
 }
 
 }  // namespace moire

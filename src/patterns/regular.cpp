@@ -23,8 +23,14 @@ PlainSet grid(int n) {
 struct Regular {
   Instances points;
 
-  Regular(const Args& args, int n, Draw draw) : points(args, draw, grid(n)) {}
+  Regular(const Args& args, int n, Draw draw) : points(args, draw, grid(n), Instances::kWithCells) {}
   void fill(std::span<const Pixel> run, Points out) const noexcept { points.fill(run, out); }
+  static constexpr int kLeastForCells = Instances::kLeastForCells;
+  CellGrid cells(Pixel pixel) const noexcept { return points.cells(pixel); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return points.take_cells(pixel, counted, filled, out);
+  }
 };
 
 }  // namespace

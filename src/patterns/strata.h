@@ -28,8 +28,17 @@ class Strata {
     return std::bit_cast<double>((bits & keep_) | half_) - 1.0;
   }
 
+  // offset() of the uniform number digits / 2^52, digits < 2^52, without making that number first.
+  double offset_of_digits(std::uint64_t digits) const noexcept {
+    return std::bit_cast<double>(((0x3FF0000000000000u | digits) & keep_) | half_) - 1.0;
+  }
+
   // The coordinate of offset u in stratum `cell`, correctly rounded.
   double place(double cell, double u) const noexcept { return (cell + u) / cells_; }
+
+  // Where there is a power of two of strata, 1 / cells is exact, and a product with it is what place() gives.
+  bool has_exact_width() const noexcept { return std::has_single_bit(static_cast<std::uint64_t>(cells_)); }
+  double width() const noexcept { return 1 / cells_; }
 
  private:
   double cells_;

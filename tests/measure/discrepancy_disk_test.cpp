@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "measure/discrepancy/disk_l2.h"
 #include "measure/discrepancy/disk_overlap.h"
+#include "measure/discrepancy/disk_pairs.h"
 #include "patterns/variants.h"
 
 using namespace moire;
@@ -164,11 +165,12 @@ TEST_SUITE("unit") {
 
   TEST_CASE("the tables of overlaps equal their functions to 1e-15 and 5e-16") {
     double worst_lens = 0, worst_mean = 0;
-    // Every piece of both ends at several places, and where a table hands over: 2^-13, 1/2, 1.
+    // Every piece of both ends at several places, and where a table begins and hands over: 2^-110, 1/2, 1.
     std::vector<long double> ends;
-    for (int halving = 1; halving < 16; ++halving)
+    for (int halving = 1; halving < 116; ++halving)
       for (int k = 0; k < 300; ++k) ends.push_back(std::ldexp(1 + k / 300.0L, -halving - 1));
-    for (const long double v : {0.0L, 0x1p-1074L, 0x1p-60L, 0x1p-13L, 0.5L}) ends.push_back(v);
+    for (const long double v : {0.0L, 0x1p-1074L, 0x1p-300L, 0x1p-110L, 0x1.1p-110L, 0x1.0fffp-110L, 0.5L})
+      ends.push_back(v);
     const auto check = [&](double q) {
       const long double p = 1 - static_cast<long double>(q), c = std::sqrt(static_cast<long double>(q));
       const long double s = std::sqrt(p), angle = std::atan2(s, c);
@@ -262,6 +264,54 @@ TEST_SUITE("unit") {
     std::reverse(turned.x.begin(), turned.x.end());
     std::reverse(turned.y.begin(), turned.y.end());
     check(turned);
+  }
+
+  TEST_CASE("all loops over pairs give the bits of the table, one pair at a time, for disks of any size") {
+    // Points at random, on a lattice whose differences are the places of no overlap and of the whole disk, and nearer
+    // to each other and to distance 1 than the tables go.
+    for (const int kind : {0, 1, 2}) {
+      PointSet set;
+      const Key key = pixel_key(draw_hash(14, 0), {kind, 0});
+      for (std::uint32_t i = 0; i < 256; ++i) {
+        const Words w = hash(key, i, Axis::xy);
+        const double shrink = kind == 2 ? std::ldexp(1.0, -static_cast<int>(w.c % 300)) : 1;
+        set.x.push_back(kind == 1 ? w.a % 8 / 8.0 : unit(w.a, w.b) * shrink);
+        set.y.push_back(kind == 1 ? w.b % 8 / 8.0 : unit(w.c, w.d) * shrink);
+      }
+      for (const DiskOverlap* overlap : {&DiskOverlap::lens(), &DiskOverlap::mean_lens()})
+        for (const double radius : {0.01, 0.25, 0.3, 0.5}) {
+          const double scale = 1 / (4 * radius * radius);
+          const auto loops = radius <= 0.25 ? disk_terms_of_one_image() : disk_terms();
+          for (std::size_t i = 0; i < set.x.size(); ++i)
+            for (std::size_t j = 0; j < set.x.size(); j += kPairLanes) {
+              double plain[kPairLanes], fast[kPairLanes];
+              loops.front()(*overlap, scale, set.x[i], set.y[i], &set.x[j], &set.y[j], plain);
+              for (const DiskTerms terms : loops) {
+                terms(*overlap, scale, set.x[i], set.y[i], &set.x[j], &set.y[j], fast);
+                CHECK(std::equal(plain, plain + kPairLanes, fast));
+              }
+            }
+        }
+    }
+  }
+
+  TEST_CASE("disk L2 of any number of points is the sum over their pairs, also where they do not fill the lanes") {
+    for (int n = 1; n < 40; ++n) {
+      const PointSet set = set_of("random", n, {23, 0});
+      // Sums of a few thousand terms of order 1, divided by n^2.
+      for (const double radius : {0.2, 0.5}) {
+        double sum = 0;
+        for (std::size_t i = 0; i < set.x.size(); ++i)
+          for (std::size_t j = 0; j < set.x.size(); ++j)
+            for (int kx = -1; kx <= 1; ++kx)
+              for (int ky = -1; ky <= 1; ++ky) {
+                const double d = std::hypot(set.x[j] + kx - set.x[i], set.y[j] + ky - set.y[i]) / (2 * radius);
+                if (d < 1) sum += 2 * (std::acos(d) - d * std::sqrt(1 - d * d));
+              }
+        const double area = kPi * radius * radius;
+        CHECK(std::fabs(disk_l2(set, radius) - (radius * radius * sum / (n * n) - area * area)) < 1e-14);
+      }
+    }
   }
 
   TEST_CASE("disk L2 has the same bits for any number of threads") {

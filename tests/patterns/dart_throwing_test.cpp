@@ -1,4 +1,4 @@
-// Dart-throwing against its definition without any grid, and the law of its bank.
+// Dart-throwing as a pattern: its sets are those of the process, and a pixel takes one of a bank.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "chi_square.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "patterns/dart_process.h"
 #include "patterns/pattern.h"
 #include "patterns/variants.h"
 
@@ -31,25 +32,12 @@ struct Thrown {
   double radius;  // at the end
 };
 
-// The definition: every candidate against every kept point.
-Thrown thrown_plainly(const Key& key, Axis axis, int n, int k) {
-  Thrown t{{}, std::sqrt(2 / (std::sqrt(3.0) * n))};
-  int misses = 0;
-  for (std::uint32_t c = 0; t.set.x.size() < static_cast<std::size_t>(n); ++c) {
-    const Words w = hash(key, c, axis);
-    const double x = unit(w.a, w.b), y = unit(w.c, w.d);
-    bool near = false;
-    for (std::size_t i = 0; i < t.set.x.size() && !near; ++i)
-      near = torus_distance2(t.set.x[i], t.set.y[i], x, y) < t.radius * t.radius;
-    if (!near) {
-      t.set.x.push_back(x);
-      t.set.y.push_back(y);
-      misses = 0;
-    } else if (++misses == k) {
-      t.radius *= 0.99;
-      misses = 0;
-    }
-  }
+Thrown thrown(const Key& key, Axis axis, int n, int k) {
+  const double r = std::sqrt(2 / (std::sqrt(3.0) * n));
+  DartProcess::Memory memory(n, r, 1, 1, 1024);
+  const auto count = static_cast<std::size_t>(n);
+  Thrown t{{std::vector<double>(count), std::vector<double>(count)}, 0};
+  t.radius = DartProcess(key, axis, k, memory, t.set.x.data(), t.set.y.data()).run(n);
   return t;
 }
 
@@ -72,21 +60,21 @@ std::pair<double, double> shape(const PointSet& points, std::size_t first) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("the grids change nothing: sets equal plain dart-throwing, bit for bit, with no two points nearer than r") {
+  TEST_CASE("a set is that of its key, whatever the bank, and no two of its points are nearer than r") {
     for (const int n : {1, 2, 3, 4, 5, 8, 11, 12, 13, 16, 50, 64, 200, 500})
       for (const int k : {1, 10, 300}) {
         CAPTURE(n);
         CAPTURE(k);
         const Draw draw{.seed = 21, .trial = static_cast<std::uint32_t>(n)};
         const std::uint64_t common = draw_hash(draw.seed, draw.trial);
-        const Thrown alone = thrown_plainly(pixel_key(common, {}), Axis::set, n, k);
+        const Thrown alone = thrown(pixel_key(common, {}), Axis::set, n, k);
         CHECK(set_of(text(k, 64), n, draw) == alone.set);
         CHECK(set_of(text(k, 0), n, draw) == alone.set);  // the set of a draw has nothing to do with the bank
         CHECK((n == 1 || least_distance(alone.set) >= alone.radius));
 
         const Pixel pixel{-7, 3};
         CHECK(points_in(Pattern(chosen(text(k, 0)), n, draw), {pixel}) ==
-              thrown_plainly(pixel_key(common, pixel), Axis::dart, n, k).set);
+              thrown(pixel_key(common, pixel), Axis::dart, n, k).set);
       }
   }
 
@@ -120,8 +108,7 @@ TEST_SUITE("unit") {
     constexpr int kBank = 5, kN = 16, kK = 100;
     const Pattern pattern(chosen(text(kK, kBank)), kN, {.seed = 8, .trial = 2});
     std::vector<Thrown> sets;
-    for (int s = 0; s < kBank; ++s)
-      sets.push_back(thrown_plainly(pixel_key(draw_hash(8, 2), {s, 0}), Axis::bank, kN, kK));
+    for (int s = 0; s < kBank; ++s) sets.push_back(thrown(pixel_key(draw_hash(8, 2), {s, 0}), Axis::bank, kN, kK));
     for (int i = 0; i < 200; ++i) {
       const PointSet points = points_in(pattern, {{i, -i}});
       int matches = 0;

@@ -1,49 +1,28 @@
 // T^2 of disks as a sum over pairs of points and their images.
 #include "measure/discrepancy/disk_l2.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 
 #include "core/dd_math.h"
 #include "measure/discrepancy/disk_overlap.h"
+#include "measure/discrepancy/disk_pairs.h"
 #include "measure/discrepancy/pair_sum.h"
 
 namespace moire {
 namespace {
 
-// Disks of diameter 2R <= 1/2: at most one image of the other point is that near, the nearest along both axes.
-struct OneImage {
-  const DiskOverlap* overlap;
-  double scale;  // 1 / (2R)^2
-  double operator()(double dx, double dy) const noexcept {
-    const double a = std::fabs(dx), b = std::fabs(dy);
-    const double x = std::min(a, 1 - a), y = std::min(b, 1 - b);
-    return (*overlap)((x * x + y * y) * scale);
-  }
-};
-
-// 2R <= 1: four images, the nearest and the next one along each axis; all others are 1 away or more.
-struct FourImages {
-  const DiskOverlap* overlap;
-  double scale;
-  double operator()(double dx, double dy) const noexcept {
-    const double a = std::fabs(dx), b = std::fabs(dy);
-    const double x = std::min(a, 1 - a), far_x = std::max(a, 1 - a), y = std::min(b, 1 - b), far_y = std::max(b, 1 - b);
-    const double x2 = x * x * scale, y2 = y * y * scale, far_x2 = far_x * far_x * scale, far_y2 = far_y * far_y * scale;
-    return ((*overlap)(x2 + y2) + (*overlap)(far_x2 + far_y2)) + ((*overlap)(far_x2 + y2) + (*overlap)(x2 + far_y2));
-  }
-};
-
 // The mean over ordered pairs of the images' overlaps.
 Dd mean_overlap(const PointView& points, const DiskOverlap& overlap, double radius) {
   const double scale = 1 / (4 * radius * radius);
-  const auto sum = [&](const auto& term) {
-    return sum_over_pairs(points, [&](PairBlock rows, PairBlock columns) { return sum_of_tile(term, rows, columns); });
-  };
+  const DiskTerms terms = (radius <= 0.25 ? disk_terms_of_one_image() : disk_terms()).back();
+  const Dd sum = sum_over_pairs(points, [&](PairBlock rows, PairBlock columns) {
+    return sum_of_lanes([&](double row_x, double row_y, const double* x, const double* y,
+                            double* value) { terms(overlap, scale, row_x, row_y, x, y, value); },
+                        rows, columns);
+  });
   const Dd n = dd_from_integer(static_cast<std::int64_t>(points.size()));
-  return (radius <= 0.25 ? sum(OneImage{&overlap, scale}) : sum(FourImages{&overlap, scale})) / n / n;
+  return sum / n / n;
 }
 
 }  // namespace

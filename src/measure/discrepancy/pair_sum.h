@@ -22,6 +22,20 @@ struct PairBlock {
 // terms: for terms >= 0 its relative error is below 15 u.
 inline constexpr std::size_t kPairBlock = 128, kPairLanes = 8;
 
+// Rows of lanes are added into high + low: the error of each lane stays below 2^-98 of it.
+[[gnu::always_inline]] inline void add_row(const double* sum, double* high, double* low) {
+  for (std::size_t lane = 0; lane < kPairLanes; ++lane) {
+    const Dd s = two_sum(high[lane], sum[lane]);
+    high[lane] = s.hi;
+    low[lane] += s.lo;
+  }
+}
+[[gnu::always_inline]] inline Dd sum_of_rows(const double* high, const double* low) {
+  Dd total;
+  for (std::size_t lane = 0; lane < kPairLanes; ++lane) total = total + quick_two_sum(high[lane], low[lane]);
+  return total;
+}
+
 // The sum of term(x_i - x_j, y_i - y_j) over all i of `rows` and j of `columns`. Column j belongs to lane j mod
 // kPairLanes; per row every lane is summed plainly, rows and lanes are added with a relative error of 2^-98.
 // Inlined always, so that it takes the instruction set of its caller.
@@ -40,15 +54,34 @@ template <class Term>
       for (std::size_t lane = 0; lane < kPairLanes; ++lane) sum[lane] += value[lane];
     }
     for (std::size_t lane = 0; lane < rest; ++lane) sum[lane] += term(row_x - x[full + lane], row_y - y[full + lane]);
-    for (std::size_t lane = 0; lane < kPairLanes; ++lane) {
-      const Dd s = two_sum(high[lane], sum[lane]);
-      high[lane] = s.hi;
-      low[lane] += s.lo;
-    }
+    add_row(sum, high, low);
   }
-  Dd total;
-  for (std::size_t lane = 0; lane < kPairLanes; ++lane) total = total + quick_two_sum(high[lane], low[lane]);
-  return total;
+  return sum_of_rows(high, low);
+}
+
+// The same where terms(row_x, row_y, x, y, value) writes the kPairLanes values of a row and as many columns.
+template <class Terms>
+[[gnu::always_inline]] inline Dd sum_of_lanes(const Terms& terms, PairBlock rows, PairBlock columns) {
+  const double *const x = columns.x.data(), *const y = columns.y.data();
+  const std::size_t full = columns.x.size() / kPairLanes * kPairLanes, rest = columns.x.size() - full;
+  // Lanes without a column repeat the last one, and are not added.
+  double last_x[kPairLanes] = {}, last_y[kPairLanes] = {};
+  for (std::size_t lane = 0; rest > 0 && lane < kPairLanes; ++lane) {
+    last_x[lane] = x[full + std::min(lane, rest - 1)];
+    last_y[lane] = y[full + std::min(lane, rest - 1)];
+  }
+  double high[kPairLanes] = {}, low[kPairLanes] = {};
+  for (std::size_t i = 0; i < rows.x.size(); ++i) {
+    double sum[kPairLanes] = {}, value[kPairLanes];
+    for (std::size_t j = 0; j < full; j += kPairLanes) {
+      terms(rows.x[i], rows.y[i], x + j, y + j, value);
+      for (std::size_t lane = 0; lane < kPairLanes; ++lane) sum[lane] += value[lane];
+    }
+    if (rest > 0) terms(rows.x[i], rows.y[i], last_x, last_y, value);
+    for (std::size_t lane = 0; lane < rest; ++lane) sum[lane] += value[lane];
+    add_row(sum, high, low);
+  }
+  return sum_of_rows(high, low);
 }
 
 // The sum over all N^2 ordered pairs, each point with itself among them. tile(rows, columns) is sum_of_tile for a term

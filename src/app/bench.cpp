@@ -1,0 +1,105 @@
+// moire bench: run time against error.
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "app/commands.h"
+#include "app/folder_lock.h"
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "app/progress.h"
+#include "app/studies.h"
+#include "reports/bench_report.h"
+#include "reports/csv.h"
+#include "reports/file.h"
+#include "reports/json.h"
+#include "reports/provenance.h"
+#include "study/benchmark.h"
+
+namespace moire {
+namespace {
+
+constexpr std::string_view kPlotFile = "bench.svg";
+
+Study image_study(const std::string& word) {
+  AnyStudy study = load_study(word);
+  if (auto* images = std::get_if<Study>(&study)) return std::move(*images);
+  throw Error("STUDY",
+              "\"" + word + "\" has no scenes, and so no images to time; give a study with scenes, such as bench");
+}
+
+std::string header_of(const Study& study) {
+  return json_header(tool(), host(), {study.name, study.text}, kBenchSchema);
+}
+
+// The header line, then the tables, told apart by "kind".
+std::string json_lines(const Study& study, const Benchmark& benchmark) {
+  std::string text = header_of(study) + "\n";
+  for (const Row& row : benchmark.rows) text += json_row(row) + "\n";
+  for (const Row& row : benchmark.exponents) text += json_row(row, "exponent") + "\n";
+  for (const Row& row : benchmark.scaling) text += json_row(row, "scaling") + "\n";
+  return text;
+}
+
+std::string json_array(const Table& rows) {
+  std::string text;
+  for (const Row& row : rows) text += (text.empty() ? "[" : ",\n ") + json_row(row, "");
+  return text.empty() ? "[]" : text + "]";
+}
+
+std::string json_object(const Study& study, const Benchmark& benchmark) {
+  return "{\"header\":" + header_of(study) + ",\n\"rows\":" + json_array(benchmark.rows) +
+         ",\n\"exponents\":" + json_array(benchmark.exponents) + ",\n\"scaling\":" + json_array(benchmark.scaling) +
+         "}\n";
+}
+
+void write_files(const std::string& folder, const Study& study, const Benchmark& benchmark) {
+  const auto write = [&](std::string_view name, const std::string& text) {
+    write_whole(folder + "/" + std::string(name), text);
+  };
+  write("bench.csv", csv(benchmark.rows));
+  write("bench.jsonl", json_lines(study, benchmark));
+  write(kPlotFile, log_plot_svg(bench_plot(study.name, benchmark.rows)));
+  write("report.md", bench_markdown(study.name, benchmark, tool(), host(), kPlotFile));
+}
+
+}  // namespace
+
+Exit execute(const BenchOptions& options) {
+  const Study study = image_study(options.study);
+  std::optional<FolderLock> lock;
+  if (!options.folder.empty()) {
+    make_folder(options.folder);
+    lock.emplace(options.folder);
+  }
+  BenchmarkSettings settings;
+  settings.repeats = options.repeats;
+  settings.threads = options.threads;
+  watch_interrupts();
+  Benchmark benchmark;
+  {
+    Progress progress;
+    benchmark = run_benchmark(
+        study, settings,
+        {.progress = [&](std::size_t done, std::size_t due, double share) { progress.step(done, due, share); },
+         .stop = interrupted});
+  }
+  if (!benchmark.complete) {
+    throw Error("moire bench", "interrupted; nothing is written, since medians need all repeats", Exit::interrupted);
+  }
+  if (!options.folder.empty()) write_files(options.folder, study, benchmark);
+  if (options.json) {
+    print(json_object(study, benchmark));
+  } else {
+    print(bench_text(benchmark, host()));
+    if (!options.folder.empty()) print("report: " + options.folder + "/report.md\n");
+  }
+  for (const Row& row : benchmark.rows) {
+    const Cell* same = row.find("exhaustive_same");
+    if (same != nullptr && *same == Cell(false)) return Exit::failed;
+  }
+  return Exit::ok;
+}
+
+}  // namespace moire
