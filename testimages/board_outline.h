@@ -99,8 +99,8 @@ class Outline {
       }
       from = to;
     }
-    vertex_ = vertex;
-    kind_ = kind;
+    std::copy_n(vertex.begin(), n, vertex_.begin());
+    std::copy_n(kind.begin(), n, kind_.begin());
     size_ = n < 3 ? 0 : n;
     if (changes > 2) return std::nullopt;
     return length;
