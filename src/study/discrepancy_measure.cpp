@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "core/parallel.h"
-#include "core/sum.h"
 #include "measure/discrepancy/disk_l2.h"
 #include "measure/discrepancy/edge_l2.h"
 #include "measure/discrepancy/edge_linf.h"
@@ -19,6 +18,7 @@
 #include "measure/discrepancy/monte_carlo.h"
 #include "measure/discrepancy/star_l2.h"
 #include "measure/discrepancy/star_linf.h"
+#include "study/discrepancy_mean.h"
 
 namespace moire {
 namespace {
@@ -202,33 +202,31 @@ std::optional<double> DiscrepancyChoice::expected_square(const PatternChoice& pa
 
 std::vector<SetsDiscrepancy> discrepancies_of(const PatternChoice& pattern, int n, bool with_time, std::uint64_t seed,
                                               std::span<const DiscrepancyChoice> choices) {
+  std::vector<SetsDiscrepancy> all(choices.size());
+  std::vector<std::size_t> measured;  // those that theory does not know
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const int dims = with_time && choices[i].info().has_3d ? 3 : 2;
+    if (const auto expected = choices[i].expected_square(pattern, n, dims)) {
+      all[i].rms = std::sqrt(*expected);
+    } else {
+      measured.push_back(i);
+    }
+  }
+  if (measured.empty()) return all;
   constexpr std::size_t kSets = 100;
   const std::size_t sets = pattern.varies(with_time) ? kSets : 1;
-  std::vector<std::vector<double>> squares(choices.size(), std::vector<double>(sets));
+  std::vector<std::vector<double>> values(measured.size(), std::vector<double>(sets));
   parallel_for(sets, [&](std::size_t trial) {
     const auto count = static_cast<std::size_t>(n);
     std::vector<double> x(count), y(count), t(with_time ? count : 0);
     const Draw draw{seed, static_cast<std::uint32_t>(trial)};
     Pattern(pattern, n, draw).fill_set({x, y, t});
     const Key key = pixel_key(draw_hash(draw.seed, draw.trial), {});
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      const double value = choices[i]({x, y, t}, key).value;
-      squares[i][trial] = value * value;
-    }
+    for (std::size_t m = 0; m < measured.size(); ++m) values[m][trial] = choices[measured[m]]({x, y, t}, key).value;
   });
-  std::vector<SetsDiscrepancy> all;
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const int dims = with_time && choices[i].info().has_3d ? 3 : 2;
-    if (const auto expected = choices[i].expected_square(pattern, n, dims)) {
-      all.push_back({std::sqrt(*expected), 0});
-      continue;
-    }
-    Sum sum, spread;
-    for (const double s : squares[i]) sum.add(s);
-    const double mean = sum.value() / static_cast<double>(sets);
-    for (const double s : squares[i]) spread.add((s - mean) * (s - mean));
-    const double error = sets > 1 ? std::sqrt(spread.value() / static_cast<double>(sets * (sets - 1))) : 0;
-    all.push_back({std::sqrt(mean), mean > 0 ? error / (2 * std::sqrt(mean)) : 0});
+  for (std::size_t m = 0; m < measured.size(); ++m) {
+    const DiscrepancyMean mean = mean_over_sets(values[m]);
+    all[measured[m]] = {mean.rms, sets > 1 && mean.rms > 0 ? mean.square_error / (2 * mean.rms) : 0};
   }
   return all;
 }

@@ -1,6 +1,7 @@
 // Rows of a study of discrepancies to means over trials, beside theory and the paper, and to rates of convergence.
 #pragma once
 
+#include "study/discrepancy_mean.h"
 #include "study/discrepancy_study.h"
 #include "study/results.h"
 
@@ -20,12 +21,5 @@ struct DiscrepancySummary {
 
 // `rows`: all of the plan, in its order.
 DiscrepancySummary summarize(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Table& rows);
-
-// Mean, root mean square and standard error of the mean (NaN for one value) of a discrepancy over sets.
-struct DiscrepancyMean {
-  double mean = 0, rms = 0, standard_error = 0;
-  double square_error = 0;  // the standard error of the mean square
-};
-DiscrepancyMean mean_over_sets(const std::vector<double>& values);
 
 }  // namespace moire

@@ -12,6 +12,7 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "gauss.h"
 #include "measure/discrepancy/disk_l2.h"
 #include "measure/discrepancy/disk_overlap.h"
 #include "measure/discrepancy/disk_pairs.h"
@@ -29,26 +30,6 @@ constexpr double kPromised = 1e-15, kPromisedFixed = 3e-15;
 
 double disk_l2(const PointSet& set) { return disk_l2_squared({set.x, set.y}); }
 double disk_l2(const PointSet& set, double radius) { return disk_l2_squared({set.x, set.y}, radius); }
-
-// Nodes in (0, 1) and weights of Gauss-Legendre quadrature: Newton's method on the three-term recurrence.
-std::vector<std::pair<double, double>> gauss(int n) {
-  std::vector<std::pair<double, double>> rule;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 0;
-    for (int step = 0; step < 8; ++step) {
-      double before = 1, now = x;
-      for (int k = 2; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
-        before = now;
-        now = next;
-      }
-      slope = n * (x * now - before) / (x * x - 1);
-      x -= now / slope;
-    }
-    rule.emplace_back((1 + x) / 2, 1 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
 
 double on_torus(double v) { return v - std::floor(v); }
 
@@ -106,7 +87,7 @@ double by_definition(const PointSet& set, double radius) {
     for (const double side : {-1.0, 1.0}) breaks.push_back(on_torus(set.x[i] + dx / 2 + side * along * dy / d));
   });
   std::sort(breaks.begin(), breaks.end());
-  static const auto rule = gauss(40);
+  static const auto rule = test::gauss(40);
   double sum = 0;
   for (std::size_t b = 0; b + 1 < breaks.size(); ++b) {
     const double length = breaks[b + 1] - breaks[b];
@@ -124,7 +105,7 @@ double by_radii(const PointSet& set) {
   for_each_image(set, [&](std::size_t, double dx, double dy) { breaks.push_back(std::hypot(dx, dy) / 2); });
   // Each point touches its own images at 1/2.
   std::sort(breaks.begin(), breaks.end());
-  static const auto rule = gauss(24);
+  static const auto rule = test::gauss(24);
   double sum = 0;
   for (std::size_t b = 0; b + 1 < breaks.size() && breaks[b] < 0.5; ++b) {
     const double length = breaks[b + 1] - breaks[b];

@@ -12,6 +12,7 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "gauss.h"
 #include "measure/discrepancy/edge_l2.h"
 #include "measure/discrepancy/edge_pairs.h"
 #include "patterns/variants.h"
@@ -27,26 +28,6 @@ constexpr double kPromised = 1e-15;  // absolute error of T^2 that the header pr
 constexpr double kMeanDistance = 0.52140543316472067833, kMeanSeparation = 0.25856738518752638724;
 
 double edge_l2(const PointSet& set, LineLaw law) { return edge_l2_squared({set.x, set.y}, law); }
-
-// Nodes in (0, 1) and weights of Gauss-Legendre quadrature: Newton's method on the three-term recurrence.
-std::vector<std::pair<double, double>> gauss(int n) {
-  std::vector<std::pair<double, double>> rule;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0;
-    for (int step = 0; step < 8; ++step) {
-      double before = 1, now = x;
-      for (int k = 2; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * now - (k - 1) * before) / k;
-        before = now;
-        now = next;
-      }
-      slope = n * (x * now - before) / (x * x - 1);
-      x -= now / slope;
-    }
-    rule.emplace_back((1 + x) / 2, 1 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
 
 struct At {
   double x, y;
@@ -81,7 +62,7 @@ double integral_over_places(const PointSet& set, double c, double s) {
   breaks.insert(breaks.end(), shares.begin(), shares.end());
   std::sort(breaks.begin(), breaks.end());
   std::sort(shares.begin(), shares.end());
-  static const auto rule = gauss(3);
+  static const auto rule = test::gauss(3);
   double sum = 0;
   for (std::size_t b = 0; b + 1 < breaks.size(); ++b) {
     const double length = breaks[b + 1] - breaks[b];
@@ -118,7 +99,7 @@ std::array<double, 2> by_definition(const PointSet& set) {
     }
   }
   std::sort(breaks.begin(), breaks.end());
-  static const auto rule = gauss(20);
+  static const auto rule = test::gauss(20);
   std::array<double, 2> sums{};
   for (std::size_t b = 0; b + 1 < breaks.size(); ++b) {
     const double length = breaks[b + 1] - breaks[b];
