@@ -12,58 +12,78 @@ namespace moire {
 struct KernelWeights {
   using Loop = void (*)(const Kernel&, std::span<const double>, std::span<double>) noexcept;
 
+  static constexpr std::size_t kVectors = 4;  // evaluated together: their recurrences do not wait for each other
+
   // The smallest and the largest; of nothing, a range of nothing.
   [[gnu::always_inline]] static inline std::pair<double, double> range(std::span<const double> x) noexcept {
-    double low[kLanes], high[kLanes];  // four at a time, which do not wait for each other
-    std::fill_n(low, kLanes, HUGE_VAL);
-    std::fill_n(high, kLanes, -HUGE_VAL);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      low[i % kLanes] = std::min(low[i % kLanes], x[i]);
-      high[i % kLanes] = std::max(high[i % kLanes], x[i]);
+    Lanes low = Lanes{} + HUGE_VAL, high = -low, at;
+    std::size_t i = 0;
+    for (; i + kLanes <= x.size(); i += kLanes) {
+      load(x.data() + i, at);
+      low = at < low ? at : low;
+      high = at > high ? at : high;
     }
-    return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
+    double least[kLanes], most[kLanes];
+    store(low, least);
+    store(high, most);
+    for (; i < x.size(); ++i) {
+      least[0] = std::min(least[0], x[i]);
+      most[0] = std::max(most[0], x[i]);
+    }
+    return {*std::min_element(least, least + kLanes), *std::max_element(most, most + kLanes)};
   }
 
-  // Every lane does what evaluate() does. Where all samples are close together, the pieces between them are evaluated
-  // for all; else each has a piece of its own.
+  // out[i] = k(x[i]) for `Vectors` vectors, where pieces from `begin` to `last` are evaluated for all: every lane does
+  // what evaluate() does.
+  template <std::size_t Vectors>
+  [[gnu::always_inline]] static inline void block(const Kernel& kernel, const double* x, double* out, int begin,
+                                                  int last) noexcept {
+    Lanes places[Vectors], values[Vectors] = {};
+    for (std::size_t v = 0; v < Vectors; ++v) load(x + v * kLanes, places[v]);
+    for (int p = begin; p <= last; ++p) {
+      const Kernel::Piece& piece = kernel.pieces_[static_cast<std::size_t>(p)];
+      const double left = kernel.knots_[static_cast<std::size_t>(p)],
+                   right = kernel.knots_[static_cast<std::size_t>(p) + 1];
+      const double* c = kernel.coefficients_.data() + piece.k_first;
+      Lanes t[Vectors], b1[Vectors] = {}, b2[Vectors] = {};
+      for (std::size_t v = 0; v < Vectors; ++v) t[v] = (places[v] - piece.mid) * piece.inverse_half;
+      for (int j = kernel.degree_; j >= 1; --j) {
+        for (std::size_t v = 0; v < Vectors; ++v) {
+          const Lanes b = c[j] + ((t[v] + t[v]) * b1[v] - b2[v]);
+          b2[v] = b1[v];
+          b1[v] = b;
+        }
+      }
+      for (std::size_t v = 0; v < Vectors; ++v) {
+        const Lanes k = c[0] + (t[v] * b1[v] - b2[v]);
+        values[v] = ((places[v] >= left) & (places[v] < right)) ? k : values[v];
+      }
+    }
+    for (std::size_t v = 0; v < Vectors; ++v) store(values[v], out + v * kLanes);
+  }
+
+  // Where all samples are close together, the pieces between them are evaluated for all; else each has a piece of its
+  // own.
   [[gnu::always_inline]] static inline void loop(const Kernel& kernel, std::span<const double> x,
                                                  std::span<double> out) noexcept {
     constexpr int kFewPieces = 4;
     const auto [low, high] = range(x);
     const int begin = std::max(kernel.piece_of(low), 0), last = std::min(kernel.piece_of(high), kernel.pieces() - 1);
     if (last - begin >= kFewPieces) return kernel.weights_apart(x, out, begin, last);
-    for (std::size_t first = 0; first < x.size(); first += kLanes) {
-      const std::size_t n = std::min(kLanes, x.size() - first);
-      double padded[kLanes];
-      const double* at = x.data() + first;
-      if (n < kLanes) {
-        for (std::size_t i = 0; i < kLanes; ++i) padded[i] = at[std::min(i, n - 1)];
-        at = padded;
-      }
-      Lanes places, values = {};
-      load(at, places);
-      for (int p = begin; p <= last; ++p) {
-        const Kernel::Piece& piece = kernel.pieces_[static_cast<std::size_t>(p)];
-        const double left = kernel.knots_[static_cast<std::size_t>(p)],
-                     right = kernel.knots_[static_cast<std::size_t>(p) + 1];
-        const double* c = kernel.coefficients_.data() + piece.k_first;
-        const Lanes t = (places - piece.mid) * piece.inverse_half, twice = t + t;
-        Lanes b1 = {}, b2 = {};
-        for (int j = kernel.degree_; j >= 1; --j) {
-          const Lanes b = c[j] + (twice * b1 - b2);
-          b2 = b1;
-          b1 = b;
-        }
-        const Lanes k = c[0] + (t * b1 - b2);
-        values = ((places >= left) & (places < right)) ? k : values;
-      }
-      if (n < kLanes) {
-        store(values, padded);
-        std::copy_n(padded, n, out.begin() + static_cast<std::ptrdiff_t>(first));
-      } else {
-        store(values, out.data() + first);
-      }
+    std::size_t first = 0;
+    for (; first + kVectors * kLanes <= x.size(); first += kVectors * kLanes) {
+      block<kVectors>(kernel, x.data() + first, out.data() + first, begin, last);
     }
+    for (; first + kLanes <= x.size(); first += kLanes) {
+      block<1>(kernel, x.data() + first, out.data() + first, begin, last);
+    }
+    if (first == x.size()) return;
+    double padded[kLanes];  // the rest, filled up with its last
+    const std::size_t n = x.size() - first;
+    std::copy_n(x.data() + first, n, padded);
+    std::fill(padded + n, padded + kLanes, x.back());
+    block<1>(kernel, padded, padded, begin, last);
+    std::copy_n(padded, n, out.data() + first);
   }
 
   static void plain(const Kernel& kernel, std::span<const double> x, std::span<double> out) noexcept {
