@@ -12,4 +12,10 @@ inline std::vector<double> even_knots(double radius, int n) {
   return knots;
 }
 
+// n pieces of equal length from 0 to radius, for radial kernels.
+inline std::vector<double> even_knots_from_zero(double radius, int n) {
+  const std::vector<double> both = even_knots(radius, n);
+  return {both.begin() + n, both.end()};
+}
+
 }  // namespace moire

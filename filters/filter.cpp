@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "core/error.h"
 #include "core/names.h"
@@ -27,12 +30,26 @@ std::string owner(std::string_view name) { return "filter \"" + std::string(name
 constexpr double kLeastShare = 0.01;
 
 // The integral of |k| of a normalised kernel, by 16 midpoints a piece: right to a few percent.
+constexpr int kPoints = 16;
 double absolute_integral(const Kernel& kernel) {
-  constexpr int kPoints = 16;
   double sum = 0;
   for (int p = 0; p < kernel.pieces(); ++p) {
     const double left = kernel.knots()[static_cast<std::size_t>(p)], step = 2 * kernel.half_length(p) / kPoints;
     for (int i = 0; i < kPoints; ++i) sum += std::fabs(kernel.k_piece(p, left + (i + 0.5) * step)) * step;
+  }
+  return sum;
+}
+
+// Over the plane.
+double absolute_integral(const RadialKernel& kernel) {
+  double sum = 0;
+  for (int p = 0; p < kernel.pieces(); ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    const double left = kernel.knots()[i], step = (kernel.knots()[i + 1] - left) / kPoints;
+    for (int j = 0; j < kPoints; ++j) {
+      const double r = left + (j + 0.5) * step;
+      sum += 2 * std::numbers::pi * r * std::fabs(kernel.k_piece(p, r)) * step;
+    }
   }
   return sum;
 }
@@ -42,8 +59,15 @@ double absolute_integral(const Kernel& kernel) {
 std::span<const FilterInfo* const> filters() { return kFilters; }
 
 std::vector<std::string> filter_variants() {
+  std::vector<std::string> texts = filter_variants(Symmetry::separable);
+  for (std::string& text : filter_variants(Symmetry::radial)) texts.push_back(std::move(text));
+  return texts;
+}
+
+std::vector<std::string> filter_variants(Symmetry symmetry) {
   std::vector<std::string> texts;
   for (const FilterInfo* info : filters()) {
+    if (info->symmetry() != symmetry) continue;
     if (std::any_of(info->params.begin(), info->params.end(), [](const Param& p) { return p.required; })) continue;
     const std::string name(info->name);
     texts.push_back(name);
@@ -72,14 +96,35 @@ const FilterInfo& find_filter(std::string_view name, std::string_view place) {
 Filter::Filter(const Spec& spec)
     : info_(&find_filter(spec.name, spec.place)),
       args_(owner(spec.name), info_->params, spec.given, spec.place),
-      text_(spec.text),
-      kernel_(std::make_shared<const Kernel>(info_->make(args_))) {
+      text_(spec.text) {
+  if (info_->symmetry() == Symmetry::radial) {
+    radial_ = std::make_shared<const RadialKernel>(info_->make_radial(args_));
+  } else {
+    kernel_ = std::make_shared<const Kernel>(info_->make(args_));
+  }
+  const double integral = is_radial() ? radial_->integral() : kernel_->integral();
+  const double absolute = is_radial() ? absolute_integral(*radial_) : absolute_integral(*kernel_);
   // Written so that what is not a number is refused too.
-  if (!(kernel_->integral() > 0 && absolute_integral(*kernel_) * kLeastShare <= 1)) {
-    throw Error(spec.place, owner(spec.text) + ": the kernel's integral is " + shortest(kernel_->integral()) +
+  if (!(integral > 0 && absolute * kLeastShare <= 1)) {
+    throw Error(spec.place, owner(spec.text) + ": the kernel's integral is " + shortest(integral) +
                                 "; pixels are divided by it, so it must be positive and at least " +
                                 shortest(kLeastShare) + " of the integral of the kernel's absolute value");
   }
+}
+
+const Kernel& Filter::kernel() const noexcept {
+  assert(!is_radial());
+  return *kernel_;
+}
+
+const RadialKernel& Filter::radial_kernel() const noexcept {
+  assert(is_radial());
+  return *radial_;
+}
+
+void require_separable(const Filter& filter, std::string_view what) {
+  if (!filter.is_radial()) return;
+  throw Error(owner(filter.text()), "a radial filter; " + std::string(what) + " is for separable ones only");
 }
 
 int Filter::apron() const noexcept { return static_cast<int>(std::ceil(radius() - 0.5)); }

@@ -1,11 +1,13 @@
 // Reconstruction filters: how we weigh. The catalogue, and a filter as a value.
 //
-// Every filter here is separable: weight(x, y) = k(x) k(y), x and y in pixels from the pixel's centre, k normalised to
-// integral 1. A plug-in gives the kernel's shape piece by piece between its knots; kernel.h turns it into piecewise
-// Chebyshev series for k and its antiderivative K, with a proven bound on the fit.
+// A filter is separable, weight(x, y) = k(x) k(y), or radial, weight(x, y) = k(r) with r = sqrt(x^2 + y^2); x and y in
+// pixels from the pixel's centre, the integral of the weight over the plane 1. A plug-in gives the kernel's shape piece
+// by piece between its knots; kernel.h and radial_kernel.h turn it into piecewise Chebyshev series for k and what its
+// integrals need, with a proven bound on the fit.
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,10 +17,11 @@
 #include "core/args.h"
 #include "core/double_double.h"
 #include "filters/kernel.h"
+#include "filters/radial_kernel.h"
 
 namespace moire {
 
-// What a plug-in type must offer. All in pixels; the scale of the shape does not matter.
+// What the plug-in type of a separable filter must offer. All in pixels; the scale of the shape does not matter.
 template <class F>
 concept FilterType = std::constructible_from<F, const Args&> && requires(const F& f, int piece, Dd x, double rho) {
   { f.knots() } -> std::same_as<std::vector<double>>;  // increasing; the first is -radius, the last +radius
@@ -31,11 +34,27 @@ concept FilterType = std::constructible_from<F, const Args&> && requires(const F
   { f.ellipse_bound(piece, rho) } -> std::same_as<double>;
 };
 
-// One constant record per filter.
+// The same for a radial filter, in r.
+template <class F>
+concept RadialFilterType = std::constructible_from<F, const Args&> &&
+    requires(const F& f, int piece, Dd r, double rho) {
+  // Increasing; the first is 0, the last the radius; each after the second at most twice the one before.
+  { f.knots() } -> std::same_as<std::vector<double>>;
+  { f.degree() } -> std::same_as<int>;  // degree, shape and ellipse_bound as of a FilterType
+  { f.shape(piece, r) } -> std::same_as<Dd>;
+  { f.ellipse_bound(piece, rho) } -> std::same_as<double>;
+};
+
+enum class Symmetry : std::uint8_t { separable, radial };
+
+// One constant record per filter: one of the two functions is null.
 struct FilterInfo {
   std::string_view name, title, cite;
   std::span<const Param> params;
   Kernel (*make)(const Args&);
+  RadialKernel (*make_radial)(const Args&);
+
+  constexpr Symmetry symmetry() const { return make == nullptr ? Symmetry::radial : Symmetry::separable; }
 };
 
 // Every filter of the program, in the order of filters/CMakeLists.txt.
@@ -44,6 +63,7 @@ std::span<const FilterInfo* const> filters();
 // Every filter as it is without parameters, then with each other value of each of its choices (presets, windows): what
 // a list of all filters means. Filters that need a file are left out.
 std::vector<std::string> filter_variants();
+std::vector<std::string> filter_variants(Symmetry symmetry);  // those of one kind
 
 // Throws Error naming the nearest filters.
 const FilterInfo& find_filter(std::string_view name, std::string_view place);
@@ -56,8 +76,13 @@ class Filter {
   const std::string& text() const { return text_; }
   const FilterInfo& info() const { return *info_; }
   const Args& args() const { return args_; }
-  const Kernel& kernel() const noexcept { return *kernel_; }
-  double radius() const noexcept { return kernel_->radius(); }
+  bool is_radial() const noexcept { return radial_ != nullptr; }
+  // Precondition: not is_radial(). Code that takes any filter asks first, or throws what require_separable() says.
+  const Kernel& kernel() const noexcept;
+  // Precondition: is_radial().
+  const RadialKernel& radial_kernel() const noexcept;
+  // Half the side of the window, pixels: of a radial filter the radius of its disk.
+  double radius() const noexcept { return is_radial() ? radial_->radius() : kernel_->radius(); }
   // Pixels beyond the image whose samples its windows touch: ceil(R - 1/2) on each side.
   int apron() const noexcept;
 
@@ -65,8 +90,12 @@ class Filter {
   const FilterInfo* info_;
   Args args_;
   std::string text_;
-  std::shared_ptr<const Kernel> kernel_;
+  std::shared_ptr<const Kernel> kernel_;  // one of the two is null
+  std::shared_ptr<const RadialKernel> radial_;
 };
+
+// Throws Error for a radial filter: `what`, as in "the noise of theory", is for separable ones only.
+void require_separable(const Filter& filter, std::string_view what);
 
 // Fields that an author writes; describe() adds the table of functions.
 struct FilterText {
@@ -74,16 +103,34 @@ struct FilterText {
   std::span<const Param> params;
 };
 
+template <class F>
+KernelShape shape_of(const F& f) {
+  KernelShape s;
+  s.knots = f.knots();
+  s.degree = f.degree();
+  s.shape = [&f](int piece, Dd x) { return f.shape(piece, x); };
+  s.ellipse_bound = [&f](int piece, double rho) { return f.ellipse_bound(piece, rho); };
+  return s;
+}
+
 template <FilterType F>
 constexpr FilterInfo describe(const FilterText& t) {
-  return {t.name, t.title, t.cite, t.params, [](const Args& a) {
+  return {t.name,
+          t.title,
+          t.cite,
+          t.params,
+          [](const Args& a) {
             const F f(a);
-            KernelShape s;
-            s.knots = f.knots();
-            s.degree = f.degree();
-            s.shape = [&f](int piece, Dd x) { return f.shape(piece, x); };
-            s.ellipse_bound = [&f](int piece, double rho) { return f.ellipse_bound(piece, rho); };
-            return Kernel(s);
+            return Kernel(shape_of(f));
+          },
+          nullptr};
+}
+
+template <RadialFilterType F>
+constexpr FilterInfo describe_radial(const FilterText& t) {
+  return {t.name, t.title, t.cite, t.params, nullptr, [](const Args& a) {
+            const F f(a);
+            return RadialKernel(shape_of(f));
           }};
 }
 

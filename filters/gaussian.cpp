@@ -2,13 +2,11 @@
 //
 // The defaults are pbrt's (Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., 2023): sigma = 1/2,
 // radius 3/2, offset. Other systems mean other filters by the same name.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "core/dd_math.h"
 #include "filters/even_knots.h"
 #include "filters/filter.h"
+#include "filters/gaussian_shape.h"
 #include "filters/preset.h"
 
 namespace moire {
@@ -41,12 +39,8 @@ constexpr Preset kPresets[] = {{"pbrt", 0.5, 1.5, true},
                                {"oiio", 0.75, 1.5, false},
                                {"oiio-sharp", 0.5 * std::numbers::sqrt2 / 2, 1, false}};
 
-struct Gaussian {
-  double sigma, radius;
-  bool offset;
-
-  explicit Gaussian(const Args& a)
-      : sigma(a.number("sigma")), radius(a.number("radius")), offset(a.text("cut") == "offset") {
+struct Gaussian : GaussianShape {
+  explicit Gaussian(const Args& a) : GaussianShape{a.number("sigma"), a.number("radius"), a.text("cut") == "offset"} {
     const Preset* p = find_preset(a, "gaussian", kPresets, {"sigma", "radius", "cut"});
     if (p == nullptr) return;
     sigma = p->sigma;
@@ -54,26 +48,7 @@ struct Gaussian {
     offset = p->offset;
   }
 
-  // Pieces of at most 3/2 sigma, where degree 17 reaches rounding.
-  std::vector<double> knots() const { return even_knots(radius, static_cast<int>(std::ceil(radius / (1.5 * sigma)))); }
-  int degree() const { return -1; }
-
-  Dd shape(int, Dd x) const {
-    const Dd scale = Dd(-0.5) / (Dd(sigma) * Dd(sigma));
-    const Dd value = dd_exp(scale * x * x);
-    return offset ? value - dd_exp(scale * Dd(radius) * Dd(radius)) : value;
-  }
-
-  // |exp(w)| = exp(Re w), and |exp(w) - exp(v)| <= |w - v| exp(max(Re w, Re v)): the second is what a wide Gaussian
-  // needs whose offset leaves little.
-  double ellipse_bound(int, double rho) const {
-    const double half = std::min(radius, 0.75 * sigma);
-    const double height = half * (rho - 1 / rho) / 2;          // imaginary semi-axis
-    const double reach = radius + half * (rho + 1 / rho) / 2;  // |z| stays below
-    const double largest = std::exp(height * height / (2 * sigma * sigma));
-    if (!offset) return largest;
-    return std::min(largest + 1, (radius * radius + reach * reach) / (2 * sigma * sigma) * largest);
-  }
+  std::vector<double> knots() const { return even_knots(radius, pieces_to_a_side()); }
 };
 
 }  // namespace

@@ -6,22 +6,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "core/double_double.h"
+#include "filters/kernel_pieces.h"
+#include "filters/shape_fit.h"
 
 namespace moire {
-
-// What a plug-in gives: see FilterType in filter.h. Neighbouring knots are at least 2^-30 of the radius apart, far more
-// than the rounding of a position.
-struct KernelShape {
-  std::vector<double> knots;
-  int degree = -1;
-  std::function<Dd(int piece, Dd x)> shape;
-  std::function<double(int piece, double rho)> ellipse_bound;
-};
 
 class Kernel {
  public:
@@ -52,12 +43,14 @@ class Kernel {
   double k(double x) const noexcept;
   double K(double x) const noexcept;  // integral of k from -radius to x
   // out[i] = k(x[i]).
-  void weights(std::span<const double> x, std::span<double> out) const noexcept;
+  void weights(std::span<const double> x, std::span<double> out) const noexcept {
+    weights_of({knots_, pieces_, coefficients_.data(), degree_}, x, out);
+  }
   // k = 1 on [-1/2, 1/2): every weight is exactly 1, so that weight sums are counts.
   bool is_unit_box() const noexcept { return unit_box_; }
 
   // The piece that x lies in, -1 left of the support, pieces() right of it.
-  int piece_of(double x) const noexcept;
+  int piece_of(double x) const noexcept { return moire::piece_of(knots_, x); }
   // Whether x is within `distance` of an end of the piece; -1 <= piece <= pieces().
   bool near_knot(int piece, double x, double distance) const noexcept;
   // The polynomials of one piece, also usable a little beyond its ends.
@@ -66,10 +59,15 @@ class Kernel {
   // Bounds on their absolute values over the Bernstein ellipse of parameter rho around the piece.
   double k_on_ellipse(int piece, double rho) const noexcept;
   double K_on_ellipse(int piece, double rho) const noexcept;
+  // The Chebyshev coefficients of k on the piece: k_at() to rounding.
+  std::span<const double> k_series(int piece) const noexcept {
+    return {coefficients_.data() + pieces_[static_cast<std::size_t>(piece)].k_first,
+            static_cast<std::size_t>(degree_) + 1};
+  }
   double half_length(int piece) const noexcept { return pieces_[static_cast<std::size_t>(piece)].half; }
   // Where x lies in the piece: from -1 to 1.
   double t_of(int piece, double x) const noexcept {
-    const Piece& p = pieces_[static_cast<std::size_t>(piece)];
+    const SeriesPiece& p = pieces_[static_cast<std::size_t>(piece)];
     return (x - p.mid) * p.inverse_half;
   }
   // out[i] = k or K on the piece at t[i]; for many points this is several times quicker than one by one.
@@ -92,17 +90,8 @@ class Kernel {
   double K_error() const noexcept { return K_error_; }
 
  private:
-  friend struct KernelWeights;
-  struct Piece {
-    double mid, half, inverse_half;
-    std::size_t k_first, K_first;  // into coefficients_: degree_ + 1 of k, degree_ + 2 of K
-  };
-  double evaluate(std::size_t first, int degree, double t) const noexcept;
-  void evaluate(std::size_t first, int degree, std::span<const double> t, double* out) const noexcept;
-  void weights_apart(std::span<const double> x, std::span<double> out, int begin, int last) const noexcept;
-
   std::vector<double> knots_;
-  std::vector<Piece> pieces_;
+  std::vector<SeriesPiece> pieces_;
   std::vector<PieceBounds> bounds_;  // of piece p at p + 1
   std::vector<double> coefficients_;
   int degree_ = 0;

@@ -5,12 +5,45 @@
 
 #include "core/instruction_sets.h"
 #include "core/lanes.h"
-#include "filters/kernel.h"
+#include "filters/kernel_pieces.h"
 
 namespace moire {
 
+namespace {
+
+// Points on pieces from `begin` to `last` or outside the support, eight at a time: their recurrences overlap.
+void weights_apart(const KernelPieces& kernel, std::span<const double> x, std::span<double> out, int begin,
+                   int last) noexcept {
+  constexpr std::size_t kTogether = 8;
+  const auto knots = kernel.knots;
+  const auto inner = knots.begin() + begin + 1, end = knots.begin() + last + 1;
+  for (std::size_t first = 0; first < x.size(); first += kTogether) {
+    const std::size_t n = std::min(kTogether, x.size() - first);
+    const double* at = x.data() + first;
+    const double* c[kTogether];
+    double t[kTogether], b1[kTogether] = {}, b2[kTogether] = {};
+    for (std::size_t i = 0; i < n; ++i) {
+      const SeriesPiece& piece =
+          kernel.pieces[static_cast<std::size_t>(std::upper_bound(inner, end, at[i]) - inner + begin)];
+      c[i] = kernel.coefficients + piece.k_first;
+      t[i] = (at[i] - piece.mid) * piece.inverse_half;
+    }
+    for (int j = kernel.degree; j >= 1; --j) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const double b = c[i][j] + ((t[i] + t[i]) * b1[i] - b2[i]);
+        b2[i] = b1[i];
+        b1[i] = b;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double k = c[i][0] + (t[i] * b1[i] - b2[i]);
+      out[first + i] = at[i] >= knots.front() && at[i] < knots.back() ? k : 0.0;
+    }
+  }
+}
+
 struct KernelWeights {
-  using Loop = void (*)(const Kernel&, std::span<const double>, std::span<double>) noexcept;
+  using Loop = void (*)(const KernelPieces&, std::span<const double>, std::span<double>) noexcept;
 
   static constexpr std::size_t kVectors = 4;  // evaluated together: their recurrences do not wait for each other
 
@@ -36,18 +69,18 @@ struct KernelWeights {
   // out[i] = k(x[i]) for `Vectors` vectors, where pieces from `begin` to `last` are evaluated for all: every lane does
   // what evaluate() does.
   template <std::size_t Vectors>
-  [[gnu::always_inline]] static inline void block(const Kernel& kernel, const double* x, double* out, int begin,
+  [[gnu::always_inline]] static inline void block(const KernelPieces& kernel, const double* x, double* out, int begin,
                                                   int last) noexcept {
     Lanes places[Vectors], values[Vectors] = {};
     for (std::size_t v = 0; v < Vectors; ++v) load(x + v * kLanes, places[v]);
     for (int p = begin; p <= last; ++p) {
-      const Kernel::Piece& piece = kernel.pieces_[static_cast<std::size_t>(p)];
-      const double left = kernel.knots_[static_cast<std::size_t>(p)],
-                   right = kernel.knots_[static_cast<std::size_t>(p) + 1];
-      const double* c = kernel.coefficients_.data() + piece.k_first;
+      const SeriesPiece& piece = kernel.pieces[static_cast<std::size_t>(p)];
+      const double left = kernel.knots[static_cast<std::size_t>(p)],
+                   right = kernel.knots[static_cast<std::size_t>(p) + 1];
+      const double* c = kernel.coefficients + piece.k_first;
       Lanes t[Vectors], b1[Vectors] = {}, b2[Vectors] = {};
       for (std::size_t v = 0; v < Vectors; ++v) t[v] = (places[v] - piece.mid) * piece.inverse_half;
-      for (int j = kernel.degree_; j >= 1; --j) {
+      for (int j = kernel.degree; j >= 1; --j) {
         for (std::size_t v = 0; v < Vectors; ++v) {
           const Lanes b = c[j] + ((t[v] + t[v]) * b1[v] - b2[v]);
           b2[v] = b1[v];
@@ -64,12 +97,13 @@ struct KernelWeights {
 
   // Where all samples are close together, the pieces between them are evaluated for all; else each has a piece of its
   // own.
-  [[gnu::always_inline]] static inline void loop(const Kernel& kernel, std::span<const double> x,
+  [[gnu::always_inline]] static inline void loop(const KernelPieces& kernel, std::span<const double> x,
                                                  std::span<double> out) noexcept {
     constexpr int kFewPieces = 4;
     const auto [low, high] = range(x);
-    const int begin = std::max(kernel.piece_of(low), 0), last = std::min(kernel.piece_of(high), kernel.pieces() - 1);
-    if (last - begin >= kFewPieces) return kernel.weights_apart(x, out, begin, last);
+    const int begin = std::max(piece_of(kernel.knots, low), 0),
+              last = std::min(piece_of(kernel.knots, high), static_cast<int>(kernel.pieces.size()) - 1);
+    if (last - begin >= kFewPieces) return weights_apart(kernel, x, out, begin, last);
     std::size_t first = 0;
     for (; first + kVectors * kLanes <= x.size(); first += kVectors * kLanes) {
       block<kVectors>(kernel, x.data() + first, out.data() + first, begin, last);
@@ -86,14 +120,16 @@ struct KernelWeights {
     std::copy_n(padded, n, out.data() + first);
   }
 
-  static void plain(const Kernel& kernel, std::span<const double> x, std::span<double> out) noexcept {
+  static void plain(const KernelPieces& kernel, std::span<const double> x, std::span<double> out) noexcept {
     loop(kernel, x, out);
   }
 #if MOIRE_HAS_AVX
-  [[MOIRE_AVX2]] static void avx2(const Kernel& kernel, std::span<const double> x, std::span<double> out) noexcept {
+  [[MOIRE_AVX2]] static void avx2(const KernelPieces& kernel, std::span<const double> x,
+                                  std::span<double> out) noexcept {
     loop(kernel, x, out);
   }
-  [[MOIRE_AVX512]] static void avx512(const Kernel& kernel, std::span<const double> x, std::span<double> out) noexcept {
+  [[MOIRE_AVX512]] static void avx512(const KernelPieces& kernel, std::span<const double> x,
+                                      std::span<double> out) noexcept {
     loop(kernel, x, out);
   }
   static constexpr Loop kLoops[] = {plain, avx2, avx512};
@@ -102,37 +138,11 @@ struct KernelWeights {
 #endif
 };
 
-void Kernel::weights(std::span<const double> x, std::span<double> out) const noexcept {
-  static const KernelWeights::Loop best = KernelWeights::kLoops[usable_sets() - 1];
-  best(*this, x, out);
-}
+}  // namespace
 
-// Points on pieces from `begin` to `last` or outside the support, eight at a time: their recurrences overlap.
-void Kernel::weights_apart(std::span<const double> x, std::span<double> out, int begin, int last) const noexcept {
-  constexpr std::size_t kTogether = 8;
-  const auto inner = knots_.begin() + begin + 1, end = knots_.begin() + last + 1;
-  for (std::size_t first = 0; first < x.size(); first += kTogether) {
-    const std::size_t n = std::min(kTogether, x.size() - first);
-    const double* at = x.data() + first;
-    const double* c[kTogether];
-    double t[kTogether], b1[kTogether] = {}, b2[kTogether] = {};
-    for (std::size_t i = 0; i < n; ++i) {
-      const Piece& piece = pieces_[static_cast<std::size_t>(std::upper_bound(inner, end, at[i]) - inner + begin)];
-      c[i] = coefficients_.data() + piece.k_first;
-      t[i] = (at[i] - piece.mid) * piece.inverse_half;
-    }
-    for (int j = degree_; j >= 1; --j) {
-      for (std::size_t i = 0; i < n; ++i) {
-        const double b = c[i][j] + ((t[i] + t[i]) * b1[i] - b2[i]);
-        b2[i] = b1[i];
-        b1[i] = b;
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double k = c[i][0] + (t[i] * b1[i] - b2[i]);
-      out[first + i] = at[i] >= knots_.front() && at[i] < knots_.back() ? k : 0.0;
-    }
-  }
+void weights_of(const KernelPieces& kernel, std::span<const double> x, std::span<double> out) noexcept {
+  static const KernelWeights::Loop best = KernelWeights::kLoops[usable_sets() - 1];
+  best(kernel, x, out);
 }
 
 }  // namespace moire

@@ -2,9 +2,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "reports/image_io.h"
+#include "reports/image_size.h"
 
 namespace moire {
 namespace {
@@ -23,6 +25,38 @@ void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
       spec.attribute(name, std::to_string(integer));  // EXR's own integers have 32 bits
     }
   }
+}
+
+// What is wrong with the headers, "" when nothing is. OpenEXR takes as much memory as an attribute claims to be long,
+// up to 2 GiB, before it looks whether there are as many bytes. Layout: "OpenEXR File Layout" (openexr.com): eight
+// bytes, then attributes (name, 0, type, 0, four bytes of length, value) up to an empty name; of files with several
+// parts up to an empty header.
+std::string refuse_attributes(std::span<const unsigned char> bytes) {
+  constexpr std::size_t kBegin = 8, kLongestName = 255;
+  constexpr unsigned char kSeveralParts = 0x10;  // of the sixth byte
+  if (bytes.size() < kBegin) return "is too short for an EXR file";
+  const bool several = (bytes[5] & kSeveralParts) != 0;
+  std::span<const unsigned char> rest = bytes.subspan(kBegin);
+  const auto skip_name = [&rest] {  // to behind its 0
+    const auto end = std::find(rest.begin(), rest.end(), 0);
+    const auto length = static_cast<std::size_t>(end - rest.begin());
+    if (end == rest.end() || length > kLongestName) return false;
+    rest = rest.subspan(length + 1);
+    return true;
+  };
+  for (bool first = true; !rest.empty(); first = false) {
+    if (rest[0] == 0) {  // the end of a header
+      rest = rest.subspan(1);
+      if (!several || first || rest.empty() || rest[0] == 0) return {};
+      continue;
+    }
+    if (!skip_name() || !skip_name() || rest.size() < 4) break;
+    const std::uint32_t length =
+        rest[0] | std::uint32_t{rest[1]} << 8 | std::uint32_t{rest[2]} << 16 | std::uint32_t{rest[3]} << 24;
+    if (length > rest.size() - 4) break;
+    rest = rest.subspan(4 + length);
+  }
+  return "is no EXR file, or its header is damaged";
 }
 
 }  // namespace
@@ -48,10 +82,16 @@ std::string write_exr_file(Grid grid, std::span<const float> y, const std::vecto
   return {};
 }
 
-std::string read_exr_file(const std::string& path, ExrImage& image) {
-  const auto in = OIIO::ImageInput::open(path);
+std::string read_exr_file(std::span<const unsigned char> bytes, ExrImage& image) {
+  if (std::string refused = refuse_attributes(bytes); !refused.empty()) return refused;
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives the reader
+  const auto in = OIIO::ImageInput::create("exr");
   if (!in) return OIIO::geterror();
-  const OIIO::ImageSpec& spec = in->spec();
+  if (!in->set_ioproxy(&memory)) return "this OpenImageIO cannot read EXR from memory";
+  OIIO::ImageSpec spec;
+  if (!in->open("image.exr", spec)) return in->geterror();
+  if (std::string refused = refuse_size(spec); !refused.empty()) return refused;
+  if (spec.deep) return "is a deep image; give a flat one";
   if (spec.nchannels != 1) return "has " + std::to_string(spec.nchannels) + " channels instead of one";
   image.grid = {spec.width, spec.height};
   image.y.resize(spec.image_pixels());

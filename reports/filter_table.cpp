@@ -17,21 +17,25 @@ struct Column {
 constexpr Column kColumns[] = {
     {"R px", "radius", "{:.4g}", "radius of the support"},
     {"I", "integral", "{:.4f}",
-     "integral of the kernel as its source defines it; the rest is for the kernel divided by I"},
+     "integral of the kernel as its source defines it (radial filters: over the plane); the rest is for the kernel "
+     "divided by I"},
     {"ripple", "ripple", "{:.3g}",
-     "largest |sum of the weights - 1| over a flat field; 0 (below 1e-14): partition of unity"},
-    {"var px^2", "variance", "{:.4f}", "second moment about the mean: blur"},
-    {"H(1/2)", "nyquist_response", "{:.3f}", "frequency response at Nyquist"},
-    {"L1", "l1_gain", "{:.3f}", "integral of |k|; 1: no negative lobes"},
+     "largest |sum of the weights - 1| over a flat field, along one axis (radial filters: in the plane); 0 (below "
+     "1e-14): partition of unity"},
+    {"var px^2", "variance", "{:.4f}", "second moment about the mean, along any axis: blur"},
+    {"H(1/2)", "nyquist_response", "{:.3f}", "frequency response at Nyquist, along an axis"},
+    {"L1", "l1_gain", "{:.3f}",
+     "integral of |k| along one axis (radial filters: over the plane); 1: no negative lobes"},
     {"over %", "overshoot_percent", "{:.2f}", "overshoot of a step"},
     {"S", "smoothing", "{:.3f}",
      "smoothing: what |H|^2 lacks inside the Nyquist square (Marschner and Lobb 1994, in 2-D)"},
     {"P", "postaliasing", "{:.4f}", "postaliasing: integral of |H|^2 outside the Nyquist square (the same)"},
     {"E", "noise_gain_1d", "{:.3f}",
-     "noise gain: integral of k^2; N independent samples per pixel, scattered without regard to pixels, leave a flat "
-     "field the variance E^2 / N"},
+     "noise gain: integral of k^2 along one axis (radial filters: the root of that over the plane); N independent "
+     "samples per pixel, scattered without regard to pixels, leave a flat field the variance E^2 / N"},
     {"edge px", "edge_alias_energy", "{:.3g}", "alias energy of an edge: what it keeps above Nyquist"},
-    {"aniso", "anisotropy", "{:.4f}", "anisotropy: largest less smallest |H| over the directions at Nyquist"},
+    {"aniso", "anisotropy", "{:.4f}",
+     "anisotropy: largest less smallest |H| over the directions at Nyquist; 0 for radial filters"},
 };
 
 // Rounding alone makes partitions of unity ripple by some 1e-16.

@@ -2,9 +2,11 @@
 #include "reports/images.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <cassert>
 #include <filesystem>
+#include <new>
 #include <string_view>
 #include <system_error>
 
@@ -12,9 +14,24 @@
 #include "reports/file.h"
 #include "reports/image_io.h"
 #include "reports/provenance.h"
+#include "study/text_file.h"
 
 namespace moire {
 namespace {
+
+// Throws where there is no room for the module: its libraries, 261 on Debian 12, take 390 MiB of addresses, and where
+// that fails in the middle of their static constructors, some of them end the program. Nothing is taken but addresses.
+void require_addresses() {
+  constexpr std::size_t kMebibytes = 448;
+  void* const room = ::mmap(nullptr, kMebibytes << 20, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) {
+    throw Error("memory",
+                "image files need " + std::to_string(kMebibytes) +
+                    " MiB of addresses for their libraries; allow more, or write no images",
+                Exit::io);
+  }
+  ::munmap(room, kMebibytes << 20);
+}
 
 // The module stays open to the end: its libraries leave threads behind that must not lose their code.
 const ImageIo& open_module() {
@@ -22,6 +39,7 @@ const ImageIo& open_module() {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) throw Error("/proc/self/exe", "cannot be read: " + error.message(), Exit::io);
   const std::string path = (program.parent_path() / "moire_io.so").string();
+  require_addresses();
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
     throw Error(
@@ -39,11 +57,27 @@ const ImageIo& image_io() {
   return io;
 }
 
+// Of a file that is read: float pixels as many as can be read, and what the formats add.
+constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
+
+std::span<const unsigned char> span_of(const std::string& bytes) {
+  return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+}
+
 std::string_view text_of(const ImageBytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::string software() { return "moire " + tool().version; }
+
+// Throws std::bad_alloc unless there is memory for the formats' libraries to work on an image of `values`. Where it
+// ends in the middle of their work some of them end the program; what is asked for here is not touched and costs
+// nothing.
+void require_memory(std::size_t values) {
+  constexpr std::size_t kOfLibraries = std::size_t{64} << 20, kOfValue = 16;  // buffers, threads; copies of the image
+  void* volatile room = ::operator new(kOfLibraries + kOfValue * values);     // volatile: it is not optimised away
+  ::operator delete(room);
+}
 
 // Throws what OpenImageIO says, on one line.
 void check(const std::string& path, const char* what, std::string reason) {
@@ -60,13 +94,16 @@ void check(const std::string& path, const char* what, std::string reason) {
 void write_exr(const std::string& path, Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes) {
   assert(y.size() == static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   ImageBytes bytes;
+  require_memory(y.size());
   check(path, "cannot be written", image_io().write_exr(grid, y, attributes, software(), bytes));
   write_whole(path, text_of(bytes));
 }
 
 ExrImage read_exr(const std::string& path) {
   ExrImage image;
-  check(path, "cannot be read", image_io().read_exr(path, image));
+  const std::string bytes = read_bytes(path, kMaxImageBytes);
+  require_memory(bytes.size());
+  check(path, "cannot be read", image_io().read_exr(span_of(bytes), image));
   return image;
 }
 
@@ -76,13 +113,16 @@ void write_png(const std::string& path, const Raster& raster) {
                                      static_cast<std::size_t>(raster.grid.height) *
                                      static_cast<std::size_t>(raster.channels));
   ImageBytes bytes;
+  require_memory(raster.pixels.size());
   check(path, "cannot be written", image_io().write_png(raster, software(), bytes));
   write_whole(path, text_of(bytes));
 }
 
 Raster read_png(const std::string& path) {
   Raster raster;
-  check(path, "cannot be read", image_io().read_png(path, raster));
+  const std::string bytes = read_bytes(path, kMaxImageBytes);
+  require_memory(bytes.size());
+  check(path, "cannot be read", image_io().read_png(span_of(bytes), raster));
   return raster;
 }
 

@@ -16,6 +16,9 @@
 namespace moire {
 namespace {
 
+// Of a results file: a million rows of a few kB each.
+constexpr std::uintmax_t kMaxResultsBytes = std::uintmax_t{8} << 30;
+
 std::string json_text(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -33,6 +36,8 @@ struct ToJson {
   }
   std::string operator()(const std::string& value) const { return json_text(value); }
 };
+
+Error not_regular(const std::string& path) { return Error(path, "is no regular file; give another folder", Exit::io); }
 
 Row row_of(const nlohmann::ordered_json& object, const std::string& place) {
   if (!object.is_object()) throw Error(place, "is not a JSON object on one line");
@@ -93,7 +98,13 @@ Row parse_json_row(std::string_view line, const std::string& place) {
 
 ResultsFile read_results(const std::string& path) {
   ResultsFile found;
-  if (!std::filesystem::exists(path)) return found;
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return found;
+  if (!std::filesystem::is_regular_file(status)) throw not_regular(path);
+  if (std::filesystem::file_size(path, error) > kMaxResultsBytes) {
+    throw Error(path, "is above 8 GiB, more than the rows of any study", Exit::io);
+  }
   std::ifstream file(path, std::ios::binary);
   const auto check = [&] {
     if (!file.eof() && file.fail()) {
@@ -145,8 +156,10 @@ std::string header_difference(const std::string& found, const std::string& expec
   return {};
 }
 
-JsonLines::JsonLines(std::string path, std::string header)
-    : path_(std::move(path)), header_(std::move(header)), file_(std::fopen(path_.c_str(), "wb")) {
+JsonLines::JsonLines(std::string path, std::string header) : path_(std::move(path)), header_(std::move(header)) {
+  std::error_code error;  // what cannot be asked about is no pipe; opening it will say what is wrong
+  if (std::filesystem::is_fifo(path_, error)) throw not_regular(path_);  // it would wait for somebody who reads
+  file_.reset(std::fopen(path_.c_str(), "wb"));
   if (!file_) throw Error(path_, std::string("cannot be written: ") + std::strerror(errno), Exit::io);
   put(header_);
 }

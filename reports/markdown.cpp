@@ -12,6 +12,7 @@
 #include "reports/cases.h"
 #include "reports/contrast.h"
 #include "reports/discrepancy_prediction.h"
+#include "reports/estimator_comparison.h"
 #include "reports/filter_comparison.h"
 #include "reports/filter_table.h"
 #include "reports/markdown_table.h"
@@ -311,6 +312,7 @@ std::string markdown_report(std::string_view study_name, const Table& rows, cons
   if (rows.empty()) return out + "No rows.\n";
   add_contrast(out, summary, report);
   out += filter_comparison(summary);
+  out += estimator_comparison(summary);
   add_filters(out, filters);
   out += noise_report(summary);
   if (!summary.rows.empty()) add_ranking(out, report);

@@ -1,8 +1,10 @@
 #include "testimages/board_squares.h"
-#include "core/rounding.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/rounding.h"
+#include "testimages/half_covered.h"
 
 namespace moire {
 namespace {
@@ -11,8 +13,14 @@ using Row = LocalHomography::Row;
 
 // The clipper's slots after the window's own. Rows and columns of squares take turns with two each: no polygon in use
 // has more of them for sides.
-enum Slot { kExtent = SharpClipper::kWindow, kBeyond = kExtent + 4, kRow, kColumn = kRow + 2 };
-static_assert(kColumn + 2 <= SharpClipper::kSlots);
+enum Slot {
+  kExtent = SharpClipper::kWindow,
+  kBeyond = BoardWindow::kCut,
+  kRow,
+  kColumn = kRow + 2,
+  kMiddle = kColumn + 2
+};
+static_assert(kMiddle + 2 <= SharpClipper::kSlots);
 
 // Bound on the rounding of a row's value at a point, and of the point.
 double row_error(const Row& row, Vec2 p) {
@@ -43,7 +51,14 @@ Range range(const SharpPolygon& polygon, const Row& r, const Row& w, double low,
 }  // namespace
 
 BoardWindow::BoardWindow(const LocalHomography& l, const Extent& e, double h)
-    : local(l), extent(e), half_width(h), clipper(h), part(clipper.window()) {
+    : BoardWindow(l, e, Rect{{-h, -h}, {h, h}}) {}
+
+BoardWindow::BoardWindow(const LocalHomography& l, const Extent& e, const Rect& window)
+    : local(l),
+      extent(e),
+      half_width(std::max(std::max(-window.lo.x, window.hi.x), std::max(-window.lo.y, window.hi.y))),
+      clipper(window),
+      part(clipper.window()) {
   SharpPolygon next;
   int slot = kExtent;
   const auto keep = [&](const Row& r, double k, double sign) {
@@ -96,30 +111,69 @@ double front_of(const LocalHomography& local, const Polygon& polygon, double squ
   return high;
 }
 
+// The window's part that is cut into squares where it has too many, and the rest.
+struct Split {
+  SharpPolygon front, behind;
+  Unresolved rest;
+};
+
+// Cut at W = constant, or along a middle line of squares near there, which makes the bound on the rest one of second
+// order: whichever is best for a smooth weight.
+Split split(BoardWindow& window) {
+  const auto& [u, v, w] = window.local;
+  SharpClipper& clipper = window.clipper;
+  const auto depth_at = [&w = w](Vec2 p) { return w.a * p.x + w.b * p.y + w.c.value(); };
+  const double nearest = front_of(window.local, window.board, kMaxCellsOfMore);
+  Split best;
+  clipper.set_line(kBeyond, sharp_line({w.a, w.b, w.c - Dd(nearest), w.c_error}, w, 0, 1));
+  clipper.split(window.part, kBeyond, &best.front, &best.behind);
+  best.rest = half_covered(window.local, best.behind);
+  const double h = window.half_width;
+  const WeightBounds typical{1, 0, 0, 1 / h, 1 / h, 4 / (h * h), 1 / h};
+  Vec2 mid, deepest = window.board.front();
+  bool cut = false;
+  for (std::size_t i = 0; i < best.behind.size(); ++i) {
+    if (best.behind[i].side != kBeyond) continue;
+    const Vec2 a = best.behind.at(i), b = best.behind.next(i);
+    mid = {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+    cut = depth_at(mid) > 0;
+  }
+  for (const Vec2 p : window.board) deepest = depth_at(p) > depth_at(deepest) ? p : deepest;
+  for (const bool of_u : {true, false}) {
+    const Row& row = of_u ? u : v;
+    const auto at = [&](Vec2 p) { return (row.a * p.x + row.b * p.y + row.c.value()) / depth_at(p); };
+    if (!cut || !(std::fabs(at(mid)) < kMaxSquares / 4)) continue;
+    const MiddleLine middle{kMiddle + of_u, of_u, std::floor(at(mid)) + 0.5};
+    clipper.set_line(middle.slot, sharp_line(row, w, middle.at, at(deepest) > middle.at ? 1 : -1));
+    Split other;
+    clipper.split(window.part, middle.slot, &other.front, &other.behind);
+    Polygon front;
+    for (std::size_t i = 0; i < other.front.size(); ++i) front.push_back(other.front.at(i));
+    if (!(squares_met(window.local, front) <= 1.5 * kMaxCellsOfMore)) continue;
+    other.rest = half_covered(window.local, other.behind, middle);
+    if (other.rest.bound(typical) < best.rest.bound(typical)) best = other;
+  }
+  return best;
+}
+
 }  // namespace
 
 void append_squares(BoardWindow& window, Boundary& out) {
   const auto& [u, v, w] = window.local;
   const Extent& extent = window.extent;
   SharpClipper& clipper = window.clipper;
-  double error = 0;  // of areas, square pixels
-  // What is not resolved counts as half covered.
-  const auto unresolved = [&](const SharpPolygon& part) {
+  const auto append_half = [&](const SharpPolygon& part, const Unresolved& unresolved) {
     SharpClipper::append(part, 0.5, out);
-    double area = 0;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Vec2 a = part.at(i), b = part.next(i);
-      area += 0.5 * (a.x * b.y - b.x * a.y);
-    }
-    error += 0.5 * std::fabs(area) * (1 + 0x1p-40) + 12 * kUnit * window.half_width * window.half_width;
+    out.unresolved.push_back(unresolved);
+    out.area_error += 12 * kUnit * window.half_width * window.half_width;
   };
+  const auto unresolved = [&](const SharpPolygon& part) { append_half(part, half_covered(window.local, part)); };
 
   SharpPolygon rest = window.part, strip, above, cell, right_of;
   if (!(squares_met(window.local, window.board) <= kMaxCells)) {
-    const double nearest = front_of(window.local, window.board, kMaxCellsOfMore);
-    clipper.set_line(kBeyond, sharp_line({w.a, w.b, w.c - Dd(nearest), w.c_error}, w, 0, 1));
-    clipper.split(window.part, kBeyond, &rest, &strip);
-    unresolved(strip);
+    const Split parts = split(window);
+    append_half(parts.behind, parts.rest);
+    rest = parts.front;
   }
   const Range rows = range(rest, v, w, extent.v0, extent.v1);
   const double first = std::floor(rows.low), last = std::floor(rows.high);
@@ -161,7 +215,7 @@ void append_squares(BoardWindow& window, Boundary& out) {
       std::swap(strip, right_of);
     }
   }
-  out.area_error += error + clipper.area_error();
+  out.area_error += clipper.area_error();
 }
 
 }  // namespace moire

@@ -16,8 +16,8 @@ inline constexpr double kMaxSquares = 0x1p50;
 inline constexpr int kMaxCells = 200000;
 inline constexpr int kMaxCellsOfMore = 10000;
 
-// The window [-half_width, half_width]^2 around the pixel's centre, and the part of it where the board is: in front of
-// the camera and within the extent.
+// The window, a square [-half_width, half_width]^2 around the pixel's centre or a rectangle inside one, and the part of
+// it where the board is: in front of the camera and within the extent.
 struct BoardWindow {
   LocalHomography local;
   Extent extent;
@@ -26,7 +26,11 @@ struct BoardWindow {
   SharpPolygon part;
   Polygon board;  // the same, vertices rounded
 
+  // The clipper's slot for one cut of `part` more.
+  static constexpr int kCut = SharpClipper::kWindow + 4;
+
   BoardWindow(const LocalHomography& local, const Extent& extent, double half_width);
+  BoardWindow(const LocalHomography& local, const Extent& extent, const Rect& window);
   // Bound on the area by which `board` differs from the true part: the cuts, and the rounding of vertices by at most
   // 2^-53 half_width in x and in y, which moves sides no longer than the window's perimeter.
   double board_error() const { return clipper.area_error() + 12 * kUnit * half_width * half_width; }
@@ -36,7 +40,7 @@ struct BoardWindow {
 double squares_met(const LocalHomography& local, const Polygon& polygon);
 
 // Appends the boundary of the even squares inside the window. What lies beyond the squares that are clipped counts as
-// half covered, with half its area in the area error.
+// half covered and is unresolved.
 void append_squares(BoardWindow& window, Boundary& out);
 
 }  // namespace moire

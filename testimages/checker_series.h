@@ -1,45 +1,104 @@
-// The area of an endless checkerboard's even squares inside a polygon, from the polygon's sides alone: the way to
-// pixels that hold thousands of squares, or the horizon and no end of them.
+// The integral of a weight over an endless checkerboard's even squares inside a polygon, from the polygon's sides
+// alone: the way to pixels that hold thousands of squares, or the horizon and no end of them.
 //
-// The idea is repeated integration by parts, which turns the square wave into Euler polynomials (Digital Library of
-// Mathematical Functions, 24.2 and 24.17) and an integral over an area into one over its sides.
+// The idea is repeated integration by parts, which turns the square wave into Euler polynomials (euler_polynomials.h)
+// and an integral over an area into one over its sides.
 //
 // Notation. Rows U, V, W of the homography as functions of the image point p, u = U/W, v = V/W, det its determinant,
-// s(u) = (-1)^floor(u). The density of even squares is (1 + s(u) s(v)) / 2, so that the area is (|P| + J) / 2 with J
-// the integral of s(u) s(v) over the polygon P. Along u at constant v, dW/du = -e W^2 with a constant e, and dx dy =
-// W^3 / |det| du dv. With E_0 = s, E_(j+1)' = E_j, all antiperiodic (E_j is the Euler polynomial of degree j over j! on
-// [0, 1)), m integrations by parts in u give
+// s(u) = (-1)^floor(u). The density of even squares is (1 + s(u) s(v)) / 2, so that the integral of g is half of that
+// over the polygon P and half of J, the integral of g s(u) s(v) over P. Along u at constant v, dp/du = W (G1 - e p) and
+// dW/du = -e W^2 with constants G1, the first column of the inverse homography, and e; dx dy = W^3 / |det| du dv. m
+// integrations by parts in u give
 //
-//   J = 1/det sum over sides of C integral_0^1 s(v) sum_(j<m) c_j e^j W^(j+1) E_(j+1)(u) dtau + R,
-//   |R| <= sup|E_m| c_m |P| max over P of |e W|^m,   c_j = (j + 2)! / 2,
+//   J = 1/det sum over sides of C integral_0^1 s(v) sum_(j<m) g_j W^(j+1) E_(j+1)(u) dtau + R,
+//   |R| <= sup|E_m| |P| max over P of |g_m| W^m,   g_0 = g,   g_(j+1) = (3 + j) e g_j - ((G1 - e p) . grad) g_j,
 //
-// where a side is p(tau), 0 <= tau <= 1, in the polygon's order, and C = V'W - VW' is constant on it (' = d/dtau).
-// Where no line u or v = integer is crossed, W^(j+1) E_(j+1)(u) is a polynomial of degree j + 1 in tau, and
-// Gauss-Legendre quadrature is exact. The same holds with u and v exchanged. The work grows with the lines that cross
-// the polygon's sides, not with its squares. In one-point perspective e = 0, and one term is everything.
+// where a side is p(tau), 0 <= tau <= 1, in the polygon's order, and C = V'W - VW' is constant on it (' = d/dtau). For
+// a box, g = 1, g_j = e^j (j + 2)! / 2; for polynomials see weight_terms.h. Where no line u or v = integer is crossed,
+// W^(j+1) E_(j+1)(u) is a polynomial of degree j + 1 in tau, and Gauss-Legendre quadrature is exact. The same holds
+// with u and v exchanged. The work grows with the lines that cross the polygon's sides, not with its squares. In
+// one-point perspective e = 0, and the series of a polynomial weight ends by itself.
+//
+// The remainder grows with W: a window is cut along W = reach() and what is in front of it is left to its squares,
+// which are few there.
 //
 // On the horizon, W = 0, infinitely many lines cross the sides that meet it. The polygon's side on the horizon itself
-// contributes nothing; of the others the stretch with W < delta is left out, which is at most
-// |C / det| sup|E_1| integral of W over it. Nothing is assumed of cancellation in there: where both families of lines
-// cross a side in step there is none.
+// contributes nothing; the others are integrated between lines down to some W, and from there as one integral over t =
+// 1/W to infinity, in which u and v are linear (square_wave_tail.h). Nothing is assumed of cancellation in there: where
+// both families of lines cross a side in step there is little.
 #pragma once
 
+#include <vector>
+
+#include "curve/piece_weight.h"
 #include "curve/polygon.h"
+#include "testimages/board_side.h"
 #include "testimages/homography.h"
 #include "testimages/testimage.h"
+#include "testimages/weight_terms.h"
 
 namespace moire {
 
-// Pieces of a side between lines of the board; a window of one pixel on the horizon has two sides with so many, of two
-// or three nodes each.
+// Pieces of a side between lines of the board, of two or three nodes each under a box.
 inline constexpr double kMaxPieces = 40000;
 
-// Sides are cut into at most `max_pieces` pieces each; what is left towards the horizon is in the bound, which falls
-// with the square of that number.
-//
-// `polygon` is convex, in order (closed integral of x dy positive), relative to the pixel's centre like `local`, and
-// lies where W >= 0, up to rounding. The bound holds for the polygon as it stands: remainder, rounding and the horizon.
-// Never more than half the polygon's area, which is known beforehand.
+// What bounds are aimed at, of J: where only the remainder is in the way, and of all stretches towards the horizon. A
+// side is cut into at most `max_pieces` pieces.
+struct SeriesAim {
+  double remainder, horizon, max_pieces;
+};
+
+// The series in one of its two forms: by parts along the rows' first argument.
+class CheckerSeries {
+ public:
+  // The weight's rectangle, relative to the pixel's centre like the rows; polygons lie in it, up to rounding. Terms are
+  // counted in powers of W / deepest.
+  CheckerSeries(const LocalHomography::Row& smooth, const LocalHomography::Row& jump, const LocalHomography::Row& w,
+                const PieceWeight& x, const PieceWeight& y, double deepest);
+
+  // The largest W, up to `deepest`, below which remainder and rounding on a part of that polygon should stay within
+  // `goal` each; 0 for none.
+  double reach(const Polygon& polygon, double area, double goal) const;
+  // Lays the polygon's sides out. Convex, in order (closed integral of x dy positive); where W >= 0, up to rounding.
+  void lay_out(const Polygon& polygon, double area, const SeriesAim& aim);
+  // An estimate of the bound on J, good enough to choose.
+  double estimate() const { return estimate_; }
+  // J and its bound, for the polygon as it stands: remainder, rounding and the horizon.
+  Bounded integrate() const;
+
+ private:
+  // Sums of bounds over the terms, for |t| <= 1/2 and W up to the polygon's deepest: of them, of their slopes in t, of
+  // their absolute parts times the roundings in them, and of what the g_j may be off by.
+  struct Sizes {
+    double size = 0, slope = 0, absolute = 0, error = 0;
+  };
+
+  double remainder(int terms, double area, double ratio) const;
+  Sizes sizes(int terms, double ratio) const;
+  double rounding(const Sizes& s) const;
+  double rounding_on(const BoardSide& side, const Sizes& s) const;
+  void choose_terms(double area, double ratio, double goal);
+  Bounded integrate(const BoardSide& side) const;
+  double sum_of_terms(double t, double r, const double* g, int terms) const;
+
+  LocalHomography::Row smooth_, jump_, w_;
+  double deepest_;
+  Bounded det_, e_;
+  WeightTerms weight_;
+
+  SeriesAim aim_{};
+  double s_noise_ = 0, j_noise_ = 0, w_noise_ = 0;
+  std::vector<BoardSide> sides_;
+  double depth_ = 0;  // largest W of the polygon
+  int terms_ = 1;     // m
+  double remainder_ = 0;
+  Sizes sizes_;
+  double nearby_ = 0;  // on the sum of the terms at complex points near the rectangle, for quadrature
+  double estimate_ = 0;
+};
+
+// The area of the even squares inside a polygon of that kind, by the better form of the series, square pixels. Never
+// more than half the polygon's area from the truth, which is known beforehand.
 BoxIntegral board_series(const LocalHomography& local, const Polygon& polygon, double max_pieces = kMaxPieces);
 
 }  // namespace moire

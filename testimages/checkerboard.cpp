@@ -12,8 +12,9 @@
 #include "testimages/board_box.h"
 #include "testimages/board_cover.h"
 #include "testimages/board_squares.h"
-#include "testimages/checker_series.h"
+#include "testimages/board_weight.h"
 #include "testimages/homography.h"
+#include "testimages/point_signs.h"
 #include "testimages/testimage.h"
 
 namespace moire {
@@ -28,15 +29,6 @@ constexpr Param kParams[] = {
     numbers("camera.pitch", false, "0", "degrees down from level"),
     numbers("camera.yaw", false, "0", "degrees"),
     numbers("camera.roll", false, "0", "degrees")};
-
-// Windows that few lines cross are cut in plain doubles. What that leaves: windows with no more squares than this are
-// clipped square by square, their bounds are small.
-constexpr double kFewSquares = 50;
-// Beyond, the series is asked: its time does not grow with the squares, and its bound is the smaller one in most
-// windows. Clipping, whose bound on the mean over the window was measured near 3e-15 sqrt(squares), is left for those
-// where the series stays above a goal that is worth the time, the second one per square.
-constexpr double kGoal = 1e-12;
-constexpr double kClippingBound = 2e-15;
 
 using Row = LocalHomography::Row;
 
@@ -82,6 +74,7 @@ class Checkerboard {
   void contains(std::span<const Pixel> run, std::span<const double> x, std::span<const double> y,
                 std::span<std::uint8_t> inside) const noexcept {
     const std::size_t n = x.size() / run.size();
+    const SignLoops& loops = sign_loops().back();
     for (std::size_t p = 0; p < run.size(); ++p) {
       const LocalHomography local = localize(h_, run[p], 0);
       const double uc = local.u.c.value(), vc = local.v.c.value(), wc = local.w.c.value();
@@ -90,28 +83,18 @@ class Checkerboard {
         return 6 * kUnit * (std::fabs(r.a) + std::fabs(r.b) + std::fabs(r.c.hi)) + r.c_error;
       };
       const double eu = error(local.u), ev = error(local.v), ew = error(local.w);
-      const std::size_t end = (p + 1) * n;
-      for (std::size_t i = p * n; i < end; ++i) {
-        const double U = local.u.a * x[i] + local.u.b * y[i] + uc;
-        const double V = local.v.a * x[i] + local.v.b * y[i] + vc;
-        const double W = local.w.a * x[i] + local.w.b * y[i] + wc;
-        if (W < -ew) {
-          inside[i] = 0;
-          continue;
-        }
-        // Clear of every line by more than rounding: the common case, by floor() alone.
-        const double r = 1 / W, u = U * r, v = V * r;
-        if (W > 4 * ew && std::fabs(u) < kMaxSquares && std::fabs(v) < kMaxSquares) {
-          const double du = quotient_error(u, eu, ew, r), dv = quotient_error(v, ev, ew, r);
-          const auto k = floor_integer(u), l = floor_integer(v);
-          const double fu = u - static_cast<double>(k), fv = v - static_cast<double>(l);
-          if (fu > du && 1 - fu > du && fv > dv && 1 - fv > dv && u > extent_.u0 + du && u < extent_.u1 - du &&
-              v > extent_.v0 + dv && v < extent_.v1 - dv) {
-            inside[i] = ((k + l) & 1) == 0;
-            continue;
-          }
-        }
-        inside[i] = classify_point(run[p], {x[i], y[i]}, U, V, W, eu, ev, ew);
+      const BoardSign board{{local.u.a, local.u.b, uc, eu},
+                            {local.v.a, local.v.b, vc, ev},
+                            {local.w.a, local.w.b, wc, ew},
+                            extent_.u0,
+                            extent_.u1,
+                            extent_.v0,
+                            extent_.v1};
+      if (!loops.mark_squares(board, x.subspan(p * n, n), y.subspan(p * n, n), &inside[p * n])) continue;
+      for (std::size_t i = p * n; i < (p + 1) * n; ++i) {
+        if (inside[i] != kDoubtful) continue;
+        const auto at = [&](const BoardSign::Row& r) { return r.a * x[i] + r.b * y[i] + r.c; };
+        inside[i] = classify_point(run[p], {x[i], y[i]}, at(board.u), at(board.v), at(board.w), eu, ev, ew);
       }
     }
   }
@@ -161,7 +144,13 @@ class Checkerboard {
   }
 
   void boundary(Pixel origin, double half_width, Boundary& out) const;
-  std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const;
+  std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const {
+    return board_box(h_, extent_, origin, half_width);
+  }
+  std::optional<WeightIntegral> weight_integral(Pixel origin, std::span<const PieceWeight> pieces, const WeightAim& aim,
+                                                Boundary& rest) const {
+    return board_weight(localize(h_, origin, 0.5), extent_, pieces, aim, rest);
+  }
 
   // Where W = 0, for a board without end.
   bool meets_horizon(Pixel origin, Rect r) const noexcept {
@@ -180,18 +169,6 @@ class Checkerboard {
   }
 
  private:
-  // Bound on the error of q = U / W, by division or by the reciprocal r of W, where U may be off by eu and W, at least
-  // 4 ew, by ew: half as much again for the second order, and the rounding of quotient and reciprocal.
-  static double quotient_error(double q, double eu, double ew, double r) {
-    return (eu + std::fabs(q) * ew) * (1.5 * r) + 4 * kUnit * std::fabs(q);
-  }
-
-  // floor of |x| < 2^50, without the call that baseline x86-64 makes of std::floor.
-  static std::int64_t floor_integer(double x) {
-    const auto towards_zero = static_cast<std::int64_t>(x);
-    return towards_zero - (static_cast<double>(towards_zero) > x);
-  }
-
   // Exact sign of (row at r) - k W at origin + p; r indexes h_: 0 for U, 3 for V, 6 for W itself with k = 0.
   int exact_sign(std::size_t r, double k, Pixel origin, Vec2 p) const noexcept {
     Expansion sum;
@@ -256,18 +233,6 @@ class Checkerboard {
 void Checkerboard::boundary(Pixel origin, double half_width, Boundary& out) const {
   BoardWindow window(localize(h_, origin, 0.5), extent_, half_width);
   append_squares(window, out);
-}
-
-std::optional<BoxIntegral> Checkerboard::box_integral(Pixel origin, double half_width) const {
-  if (const auto few = board_box(h_, extent_, origin, half_width)) return few;
-  const BoardWindow window(localize(h_, origin, 0.5), extent_, half_width);
-  const double squares = squares_met(window.local, window.board);
-  if (window.board.empty() || squares <= kFewSquares) return std::nullopt;
-  BoxIntegral integral = board_series(window.local, window.board);
-  integral.bound += window.board_error();
-  const double enough = std::max(kGoal, kClippingBound * squares) * 4 * half_width * half_width;
-  if (integral.bound > enough && squares < kMaxCells) return std::nullopt;
-  return integral;
 }
 
 }  // namespace

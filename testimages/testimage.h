@@ -18,6 +18,7 @@
 #include "core/args.h"
 #include "core/geometry.h"
 #include "curve/boundary.h"
+#include "curve/piece_weight.h"
 
 namespace moire {
 
@@ -84,6 +85,28 @@ concept HasBoxIntegral = requires(const S& s, Pixel origin, double half_width) {
   { s.box_integral(origin, half_width) } -> std::same_as<std::optional<BoxIntegral>>;
 };
 
+// What a scene's part of a window comes to under a weight, and a guaranteed bound on its error.
+struct WeightIntegral {
+  double value = 0, bound = 0;
+};
+
+// The bound on a pixel's value that is worth time, above 0: where the window meets the horizon, and elsewhere.
+struct WeightAim {
+  double bound = 1e-12, at_horizon = 1e-9;
+};
+
+// What may be asked for in place of these.
+inline constexpr double kFinestAim = 1e-15, kCoarsestAim = 0.1;
+
+// A scene may know the integral under a separable weight k(x) k(y), the pieces of k in order from the window's left
+// side to its right, around the CENTRE of pixel `origin`, or a part of it. The rest is appended to `rest` as boundary()
+// would: what is asked is the sum of the two. No answer, and nothing appended, where boundary() alone serves better.
+template <class S>
+concept HasWeightIntegral = requires(const S& s, Pixel origin, std::span<const PieceWeight> pieces,
+                                     const WeightAim& aim, Boundary& rest) {
+  { s.weight_integral(origin, pieces, aim, rest) } -> std::same_as<std::optional<WeightIntegral>>;
+};
+
 // What strips of a pixel hold of a scene, x and y from the pixel's upper left corner. For every point of the pixel in
 // the closed strip j: outside the scene if x < outer_begin[j] or x > outer_end[j], inside if inner_begin[j] <= x <=
 // inner_end[j]; begin > end: no such x. Numbers may lie beyond the pixel or be infinite, but are no NaN.
@@ -118,6 +141,8 @@ struct TestImageInfo {
   void (*contains_at)(const void*, std::span<const Pixel>, std::span<const double>, std::span<const double>,
                       std::span<const double>, std::span<std::uint8_t>) noexcept;
   bool (*strips)(const void*, Pixel, std::span<const double>, Strips) noexcept;  // null: has none
+  std::optional<WeightIntegral> (*weight_integral)(const void*, Pixel, std::span<const PieceWeight>, const WeightAim&,
+                                                   Boundary&);  // null: has none
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -153,6 +178,11 @@ class TestImage {
   std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const {
     if (info_->box_integral == nullptr) return std::nullopt;
     return info_->box_integral(self_.get(), origin, half_width);
+  }
+  std::optional<WeightIntegral> weight_integral(Pixel origin, std::span<const PieceWeight> pieces, const WeightAim& aim,
+                                                Boundary& rest) const {
+    if (info_->weight_integral == nullptr) return std::nullopt;
+    return info_->weight_integral(self_.get(), origin, pieces, aim, rest);
   }
   // See HasStrips.
   bool has_strips() const noexcept { return info_->strips != nullptr; }
@@ -241,6 +271,19 @@ constexpr auto strips_of() -> bool (*)(const void*, Pixel, std::span<const doubl
   }
 }
 
+template <class S>
+constexpr auto weight_integral_of()
+    -> std::optional<WeightIntegral> (*)(const void*, Pixel, std::span<const PieceWeight>, const WeightAim&,
+                                         Boundary&) {
+  if constexpr (HasWeightIntegral<S>) {
+    return [](const void* p, Pixel o, std::span<const PieceWeight> pieces, const WeightAim& aim, Boundary& rest) {
+      return static_cast<const S*>(p)->weight_integral(o, pieces, aim, rest);
+    };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
   return {t.name,
@@ -258,7 +301,8 @@ constexpr TestImageInfo describe(const TestImageText& t) {
           motion_of<S>(),
           sweep_of<S>(),
           contains_at_of<S>(),
-          strips_of<S>()};
+          strips_of<S>(),
+          weight_integral_of<S>()};
 }
 
 }  // namespace moire

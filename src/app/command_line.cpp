@@ -16,6 +16,7 @@
 #include "measure/point_spectrum.h"
 #include "patterns/pattern.h"
 #include "reports/provenance.h"
+#include "testimages/testimage.h"
 
 namespace moire {
 namespace {
@@ -95,6 +96,9 @@ CommandWords exact_words(CLI::App& app) {
   w.option("--filter", "F", "reconstruction filter, NAME or NAME:key=value,...", "box");
   w.option("-o", "FILE", "write the image (float32 EXR)");
   w.option("--pixels", "FILE", "lines x,y, any 64-bit integers; prints CSV x,y,value,bound");
+  w.option("--accuracy", "A",
+           "bound aimed at on checkerboards, 1e-15 to 0.1: a larger one takes less time; default 1e-12, and 1e-9 where "
+           "a window meets the horizon");
   return w;
 }
 
@@ -102,7 +106,8 @@ Command exact_options(const CommandWords& w) {
   if (w.has("-o") == w.has("--pixels")) {
     throw Error(w.place(), "give either -o FILE for the image or --pixels FILE for single pixels");
   }
-  return ExactOptions{w.required("SCENE"), w.required("--filter"), w.text("-o"), w.text("--pixels")};
+  return ExactOptions{w.required("SCENE"), w.required("--filter"), w.text("-o"), w.text("--pixels"),
+                      w.has("--accuracy") ? w.number("--accuracy", kFinestAim, kCoarsestAim) : 0};
 }
 
 CommandWords points_words(CLI::App& app) {

@@ -43,8 +43,9 @@ struct RenderOptions {
 
 struct ExactOptions {
   std::string scene, filter;
-  std::string out;     // path of the image, or
-  std::string pixels;  // path of a list of pixels
+  std::string out;      // path of the image, or
+  std::string pixels;   // path of a list of pixels
+  double accuracy = 0;  // the bound that is aimed at; 0: the usual ones
 };
 
 struct PointsOptions {

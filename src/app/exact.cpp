@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
-#include <string_view>
 #include <vector>
 
 #include "app/commands.h"
@@ -15,6 +13,7 @@
 #include "app/scene_argument.h"
 #include "core/parallel.h"
 #include "study/file_names.h"
+#include "study/pixel_list.h"
 #include "study/stopwatch.h"
 #include "study/study.h"
 #include "study/text_file.h"
@@ -22,37 +21,6 @@
 
 namespace moire {
 namespace {
-
-// One whole number from the front of `text`; what follows is left.
-bool take_integer(std::string_view& text, std::int64_t& out) {
-  const char* begin = text.data();
-  const auto [end, status] = std::from_chars(begin, begin + text.size(), out);
-  text.remove_prefix(static_cast<std::size_t>(end - begin));
-  return status == std::errc();
-}
-
-Pixel parse_pixel(std::string_view line, const std::string& file, std::size_t number) {
-  const std::string_view whole = line;
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  Pixel pixel;
-  const bool x = take_integer(line, pixel.x);
-  const bool comma = x && line.starts_with(',');
-  if (comma) line.remove_prefix(1);
-  if (comma && take_integer(line, pixel.y) && line.empty()) return pixel;
-  const auto column = static_cast<std::size_t>(line.data() - whole.data()) + 1;
-  throw Error(fmt::format("{}:{}:{}", file, number, column),
-              fmt::format("\"{}\" is no pixel; write x,y, two whole numbers of 64 bits", whole.substr(0, 60)));
-}
-
-std::vector<Pixel> parse_pixels(std::string_view text, const std::string& file) {
-  std::vector<Pixel> pixels;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    pixels.push_back(parse_pixel(text.substr(0, end), file, number));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return pixels;
-}
 
 // What exact values cost and how good they are, beside the values themselves.
 void say_cost(const std::string& place, std::int64_t count, const char* of, std::int64_t nanoseconds, double bound) {
@@ -62,8 +30,12 @@ void say_cost(const std::string& place, std::int64_t count, const char* of, std:
                          1e-3 * each, thread_count(), bound));
 }
 
+WeightAim aim_of(const ExactOptions& options) {
+  return options.accuracy > 0 ? WeightAim{options.accuracy, options.accuracy} : WeightAim{};
+}
+
 void print_pixels(const NamedScene& scene, const Filter& filter, const std::vector<Pixel>& pixels,
-                  const std::string& place) {
+                  const std::string& place, const WeightAim& aim) {
   print("x,y,value,bound\n");
   std::int64_t nanoseconds = 0;
   double bound = 0;
@@ -73,7 +45,7 @@ void print_pixels(const NamedScene& scene, const Filter& filter, const std::vect
     const std::size_t count = std::min(kBlock, pixels.size() - begin);
     const Stopwatch time;
     parallel_for(
-        count, [&](std::size_t i) { values[i] = exact_pixel(scene.image, filter, pixels[begin + i]); }, 64);
+        count, [&](std::size_t i) { values[i] = exact_pixel(scene.image, filter, pixels[begin + i], aim); }, 64);
     nanoseconds += time.nanoseconds();
     std::string lines;
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,15 +67,17 @@ Exit execute(const ExactOptions& options) {
   study.scenes = {load_scene(options.scene)};
   study.filters = {Filter(parse_spec(options.filter, "--filter"))};
   if (!options.pixels.empty()) {
-    print_pixels(study.scenes[0], study.filters[0], parse_pixels(read_text(options.pixels), options.pixels),
-                 options.pixels);
+    print_pixels(study.scenes[0], study.filters[0],
+                 parse_pixels(read_bytes(options.pixels, kMaxPixelListBytes), options.pixels), options.pixels,
+                 aim_of(options));
     return Exit::ok;
   }
   check_image_size(study.scenes[0], "-o");
-  Truth truth = find_truth(study.scenes[0].image, study.filters[0]);
+  const WeightAim aim = aim_of(options);
+  Truth truth = find_truth(study.scenes[0].image, study.filters[0], aim);
   // The first time starts threads and makes tables, which shows where all is over at once.
   constexpr std::int64_t kShort = 20'000'000;  // nanoseconds
-  if (truth.time_ns < kShort) truth = find_truth(study.scenes[0].image, study.filters[0]);
+  if (truth.time_ns < kShort) truth = find_truth(study.scenes[0].image, study.filters[0], aim);
   write_exact_exr(options.out, study, 0, 0, truth);
   say_cost(options.out, truth.rows.active_pixels(), "active pixels", truth.time_ns, truth.exact.max_bound);
   return Exit::ok;

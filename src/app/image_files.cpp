@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <system_error>
 #include <vector>
 
 #include "app/definition.h"
@@ -107,9 +108,13 @@ Raster relative_preview(Grid grid, std::vector<float> power) {
   return picture;
 }
 
+// Empty files are none: a system that stopped may keep the name of a file and not its bytes.
 bool all_there(const std::string& stem, std::initializer_list<const char*> endings) {
-  return std::all_of(endings.begin(), endings.end(),
-                     [&](const char* ending) { return std::filesystem::exists(stem + ending); });
+  return std::all_of(endings.begin(), endings.end(), [&](const char* ending) {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(stem + ending, missing);
+    return !missing && size > 0;
+  });
 }
 
 }  // namespace

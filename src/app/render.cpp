@@ -26,7 +26,8 @@ Study study_of(const RenderOptions& options) {
   study.spp = {static_cast<int>(options.spp)};
   study.filters = {Filter(parse_spec(options.filter, "--filter"))};
   study.layouts = {find_layout(options.layout, "--layout")};
-  study.estimators = {{options.estimator, find_estimator(options.estimator, "--estimator")}};
+  study.estimators = {EstimatorChoice(find_estimator(options.estimator, "--estimator"))};
+  require_layout(study.estimators[0].value, study.layouts[0], "--estimator");
   study.seed = options.seed;
   study.images = Images::none;
   return study;
@@ -68,7 +69,7 @@ Exit execute(const RenderOptions& options) {
   if (study.scenes[0].image.moves()) study.patterns[0].require_time();
   // An exhaustive image is dense in memory, too.
   if (!options.out.empty() || !options.error.empty() || options.exhaustive) check_image_size(study.scenes[0], "SCENE");
-  require_renderable(study.scenes[0].image.grid(), study.filters[0], study.spp[0], "SCENE");
+  require_renderable(study.scenes[0].image.grid(), study.filters[0], study.estimators[0].value, study.spp[0], "SCENE");
   Case c;
   c.trial = options.trial;
   SampleMaker maker(study);

@@ -15,6 +15,7 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "measure/discrepancy/test_lines.h"
 #include "reports/csv.h"
@@ -34,6 +35,8 @@ constexpr auto kReports = std::to_array<std::string_view>({"results.csv", "summa
 constexpr int kMostDrawn = 2048;
 // Pictures of sets in a report.
 constexpr std::size_t kMostPictures = 100;
+// Bytes of a picture's name; file systems take 255, with the ending of a temporary file.
+constexpr std::size_t kMaxPictureName = 240;
 // Lines of a picture, as in the paper.
 constexpr int kDrawnLines = 100;
 
@@ -57,6 +60,12 @@ std::vector<Drawn> drawn_sets(const DiscrepancyStudy& study, const DiscrepancyPl
     if (!study.images || block.n[group.n] > kMostDrawn || drawn.size() >= kMostPictures) continue;
     std::string file = points_file(study, group);
     if (!files.insert(file).second) continue;
+    if (file.size() > kMaxPictureName) {
+      throw Error("images",
+                  fmt::format("the pattern \"{}...\" makes a file name above {} bytes; shorten it, or set images "
+                              "= \"none\"",
+                              block.patterns[group.pattern].text().substr(0, 60), kMaxPictureName));
+    }
     drawn.push_back({fmt::format("`{}`, {} points{}", block.patterns[group.pattern].text(), block.n[group.n],
                                  block.dims[group.dims] == 3 ? ", time from blue to red" : ""),
                      std::move(file), group.first_row});
@@ -113,6 +122,7 @@ std::vector<std::string> keys_of(const DiscrepancyStudy& study, const Discrepanc
 
 Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   const DiscrepancyPlan planned = plan(study);
+  const std::vector<Drawn> drawn = drawn_sets(study, planned);
   PlannedRows rows{study.seed, keys_of(study, planned), key_of};
   if (options.dry_run) {
     print(fmt::format("# {} rows: pattern n dims measure trial\n", planned.rows));
@@ -122,7 +132,6 @@ Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   const ThreadLimit limit(options.threads);
   RunFolder folder(options, {study.name, study.text}, rows, kReports, study.images);
 
-  const std::vector<Drawn> drawn = drawn_sets(study, planned);
   watch_interrupts();
   Results outcome;
   {

@@ -12,6 +12,22 @@
 
 namespace moire {
 
+namespace {
+
+// What write_whole() left of files as a run was killed; another study would not write them again. Only the program's
+// own kinds of files: the folder may hold others.
+void remove_parts(const std::string& folder) {
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator it(folder, ignored), end; it != end; it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    for (const std::string_view ending : {".exr.part", ".png.part", ".csv.part", ".md.part", ".jsonl.part"}) {
+      if (name.ends_with(ending) && it->is_regular_file(ignored)) std::filesystem::remove(it->path(), ignored);
+    }
+  }
+}
+
+}  // namespace
+
 RunFolder::RunFolder(const RunOptions& options, const StudyText& study, const PlannedRows& planned,
                      std::span<const std::string_view> reports, bool images)
     : study_(options.study),
@@ -21,6 +37,8 @@ RunFolder::RunFolder(const RunOptions& options, const StudyText& study, const Pl
   make_folder(folder_);
   lock_.emplace(folder_);
   if (images) make_folder(folder_ + "/images");
+  remove_parts(folder_);
+  remove_parts(folder_ + "/images");
   const std::string header = json_header(tool(), host(), study);
   if (options.resume) {
     earlier_ = find_earlier(results_file_, header, planned);

@@ -8,7 +8,7 @@
 namespace moire {
 
 NamedScene load_scene(const std::string& path) {
-  return parse_scene(read_text(path), path, std::filesystem::path(path).stem().string());
+  return parse_scene(read_bytes(path, kMaxTomlBytes), path, std::filesystem::path(path).stem().string());
 }
 
 }  // namespace moire

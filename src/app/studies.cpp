@@ -45,7 +45,7 @@ AnyStudy load_study(const std::string& word) {
   if (word.find('/') == std::string::npos && path.extension() != ".toml" && !std::filesystem::exists(path, none)) {
     throw Error("STUDY", unknown_name("built-in study", word, names) + "; or give a file, NAME.toml");
   }
-  return parse_any(read_text(word), word, path.stem().string());
+  return parse_any(read_bytes(word, kMaxTomlBytes), word, path.stem().string());
 }
 
 }  // namespace moire

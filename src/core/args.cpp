@@ -148,6 +148,10 @@ Spec parse_spec(std::string_view text, std::string_view place) {
   if (spec.name.empty()) throw Error(spec.place, "a name is missing; write NAME or NAME:key=value,key=value");
   if (colon == text.size()) return spec;
   for (const std::string_view part : split(text.substr(colon + 1), ',')) {
+    if (spec.given.size() == kMaxSpecKeys) {
+      throw Error(spec.place, "\"" + spec.name.substr(0, 60) + "\" is given more than " + std::to_string(kMaxSpecKeys) +
+                                  " parameters; leave some out");
+    }
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos || equals == 0) {
       const bool after_path = !spec.given.empty() && spec.given.back().first == "path";

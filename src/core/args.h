@@ -88,7 +88,11 @@ struct Spec {
   std::string place;
 };
 
-// Throws Error for an empty name, a parameter without "=", an empty key or a key given twice. A value ends at a comma.
+// Parameters of a spec: each key is compared with all others, and a spec may come from a large file.
+inline constexpr std::size_t kMaxSpecKeys = 64;
+
+// Throws Error for an empty name, a parameter without "=", an empty key, a key given twice or more than kMaxSpecKeys. A
+// value ends at a comma.
 Spec parse_spec(std::string_view text, std::string_view place);
 
 // The whole of `text` as a finite double; false when it is not one. Locale-free.

@@ -27,24 +27,24 @@ namespace moire {
 
 // What a number is for. Numbers of different axes are independent; each axis gives two coordinates per index.
 enum class Axis : std::uint32_t {
-  xy,        // the position of sample `index`
-  order,     // permutations
-  shift,     // one toroidal shift per pixel
-  scramble,  // one digit scramble per pixel
-  pick,      // which one of a bank of sets
-  dart,      // candidates of dart-throwing inside a pixel
-  bank,      // candidates of set s of a bank; the pixel is (s, 0)
-  set,       // candidates of the one set that belongs to no pixel
+  xy,          // the position of sample `index`
+  order,       // permutations
+  shift,       // one toroidal shift per pixel
+  scramble,    // one digit scramble per pixel
+  pick,        // which one of a bank of sets
+  dart,        // candidates of dart-throwing inside a pixel
+  bank,        // candidates of set s of a bank; the pixel is (s, 0)
+  set,         // candidates of the one set that belongs to no pixel
   area,        // a set over a whole image: positions, candidates, its shift; the pixel is (0, 0)
   area_order,  // permutations of such a set
-  line,      // random lines of a study's scenes; the pixel is (0, 0)
-  field,  // the disks of a noise field: radii in part 0, candidates of centres from part 1 on; the pixel is (0, 0)
-  time,   // the time of sample `index`
-  scan,   // candidates of that time: the part counts them
-  area_time,  // the times of a set over a whole image; the pixel is (0, 0)
-  test_line,  // lines that test a set of points
-  test_box,   // boxes that do
-  test_disk,  // disks that do
+  line,        // random lines of a study's scenes; the pixel is (0, 0)
+  field,       // the disks of a noise field: radii in part 0, candidates of centres from part 1 on; the pixel is (0, 0)
+  time,        // the time of sample `index`
+  scan,        // candidates of that time: the part counts them
+  area_time,   // the times of a set over a whole image; the pixel is (0, 0)
+  test_line,   // lines that test a set of points
+  test_box,    // boxes that do
+  test_disk,   // disks that do
 };
 
 // 128 bits that stand for (seed, trial, pixel). Two pixels of one draw with different coordinates modulo 2^32 never
@@ -79,27 +79,42 @@ constexpr Key pixel_key(std::uint64_t draw, Pixel pixel) noexcept {
            static_cast<std::uint32_t>(y)}};
 }
 
+// A word of 32 bits, or each of a vector of them, rotated by 0 < by < 32. In place: returned by value, vectors would
+// have another calling convention on every instruction set.
+template <class Word>
+[[gnu::always_inline]] constexpr void rotate_left(Word& word, int by) noexcept {
+  word = word << by | word >> (32 - by);
+}
+
 // Threefry4x32 as published, any number of rounds up to 20; a multiple of 4 ends with a key injection.
-// Inlined always, and hash() too: otherwise clang leaves a call in the loop over samples, which is then not vectorised.
-template <int rounds>
-[[gnu::always_inline]] constexpr Words threefry4x32(const Key& key, std::array<std::uint32_t, 4> counter) noexcept {
+// a, b, c and d, each a word of 32 bits or a vector of them, hold the counter and become the result. Inlined always,
+// and hash() too: otherwise clang leaves a call in the loop over samples, which is then not vectorised.
+template <int rounds, class Word>
+[[gnu::always_inline]] constexpr void threefry4x32(const Key& key, Word& a, Word& b, Word& c, Word& d) noexcept {
   static_assert(rounds >= 0 && rounds <= 20);
   constexpr int kRotations[8][2] = {{10, 26}, {11, 21}, {13, 27}, {23, 5}, {6, 20}, {17, 11}, {25, 10}, {18, 20}};
   const auto& k = key.words;
   const std::uint32_t schedule[5] = {k[0], k[1], k[2], k[3], 0x1BD11BDAu ^ k[0] ^ k[1] ^ k[2] ^ k[3]};
-  std::uint32_t a = counter[0] + k[0], b = counter[1] + k[1], c = counter[2] + k[2], d = counter[3] + k[3];
+  a += k[0];
+  b += k[1];
+  c += k[2];
+  d += k[3];
 #pragma GCC unroll 20
   for (int r = 0; r < rounds; ++r) {
     if (r % 2 == 0) {
       a += b;
-      b = std::rotl(b, kRotations[r % 8][0]) ^ a;
+      rotate_left(b, kRotations[r % 8][0]);
+      b ^= a;
       c += d;
-      d = std::rotl(d, kRotations[r % 8][1]) ^ c;
+      rotate_left(d, kRotations[r % 8][1]);
+      d ^= c;
     } else {
       a += d;
-      d = std::rotl(d, kRotations[r % 8][0]) ^ a;
+      rotate_left(d, kRotations[r % 8][0]);
+      d ^= a;
       c += b;
-      b = std::rotl(b, kRotations[r % 8][1]) ^ c;
+      rotate_left(b, kRotations[r % 8][1]);
+      b ^= c;
     }
     if (r % 4 == 3) {
       const int j = r / 4 + 1;
@@ -109,6 +124,11 @@ template <int rounds>
       d += schedule[(j + 3) % 5] + static_cast<std::uint32_t>(j);
     }
   }
+}
+template <int rounds>
+[[gnu::always_inline]] constexpr Words threefry4x32(const Key& key, std::array<std::uint32_t, 4> counter) noexcept {
+  auto [a, b, c, d] = counter;
+  threefry4x32<rounds>(key, a, b, c, d);
   return {a, b, c, d};
 }
 

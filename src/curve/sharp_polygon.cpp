@@ -1,4 +1,5 @@
-// u = 2^-53, h the window's half width, |l| = |a| + |b| of a line. Lines that cross the window have |c| <= |l| h.
+// u = 2^-53, h the half width of the square around the window, |l| = |a| + |b| of a line. Lines that cross the window
+// have |c| <= |l| h.
 //
 // Where the lines l and m meet well, |det| >= 2^-12 |l| |m|: the starting point has residuals of at most 24 u |l| h and
 // 24 u |m| h (6 u of the terms for each value, twice, and 4 u h for the point), so that it moves by less than
@@ -42,17 +43,21 @@ double SharpClipper::Line::residual(Vec2 p) const {
   return second.hi + ((second.lo + first.lo) + (x.lo + y.lo) + (a_rest * p.x + b_rest * p.y + c_rest));
 }
 
-SharpClipper::SharpClipper(double half_width) : half_width_(half_width) {
+SharpClipper::SharpClipper(double half_width)
+    : SharpClipper(Rect{{-half_width, -half_width}, {half_width, half_width}}) {}
+
+SharpClipper::SharpClipper(const Rect& r)
+    : window_(r), half_width_(std::max(std::max(-r.lo.x, r.hi.x), std::max(-r.lo.y, r.hi.y))) {
   // Top, right, bottom, left, as window() walks.
-  lines_[0] = {0, 1, half_width, 0, 0, 0, 0, 1};
-  lines_[1] = {-1, 0, half_width, 0, 0, 0, 0, 1};
-  lines_[2] = {0, -1, half_width, 0, 0, 0, 0, 1};
-  lines_[3] = {1, 0, half_width, 0, 0, 0, 0, 1};
+  lines_[0] = {0, 1, -r.lo.y, 0, 0, 0, 0, 1};
+  lines_[1] = {-1, 0, r.hi.x, 0, 0, 0, 0, 1};
+  lines_[2] = {0, -1, r.hi.y, 0, 0, 0, 0, 1};
+  lines_[3] = {1, 0, -r.lo.x, 0, 0, 0, 0, 1};
 }
 
 SharpPolygon SharpClipper::window() const {
-  const double h = half_width_;
-  const Vec2 corners[kWindow] = {{-h, -h}, {h, -h}, {h, h}, {-h, h}};
+  const auto& [lo, hi] = window_;
+  const Vec2 corners[kWindow] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
   SharpPolygon square;
   for (int i = 0; i < kWindow; ++i) square.push_back({corners[i], {}, i});
   return square;

@@ -58,14 +58,15 @@ class SharpPolygon {
   std::size_t size_ = 0;
 };
 
-// Cuts polygons inside the window [-half_width, half_width]^2 by lines. A polygon's sides name their lines by slot: a
-// slot may be given another line once no polygon in use has a side there.
+// Cuts polygons inside a window, a square [-half_width, half_width]^2 or any rectangle, by lines. A polygon's sides
+// name their lines by slot: a slot may be given another line once no polygon in use has a side there.
 class SharpClipper {
  public:
   static constexpr int kWindow = 4;  // the window's sides have the slots below
   static constexpr int kSlots = 16;
 
   explicit SharpClipper(double half_width);
+  explicit SharpClipper(const Rect& window);
 
   // The window, oriented so that the closed integral of x dy is positive.
   SharpPolygon window() const;
@@ -90,7 +91,8 @@ class SharpClipper {
   };
   SharpVertex meet(const SharpVertex& a, double value_a, const SharpVertex& b, double value_b, const Line& line) const;
 
-  double half_width_, area_error_ = 0;
+  Rect window_;
+  double half_width_, area_error_ = 0;  // of the square around the origin that holds the window
   std::array<Line, kSlots> lines_;
 };
 

@@ -4,6 +4,9 @@
 #include <cassert>
 #include <cstdint>
 #include <numeric>
+#include <string>
+
+#include "core/error.h"
 
 namespace moire {
 namespace {
@@ -59,6 +62,10 @@ class Enumerator {
   static constexpr std::size_t kNone = SIZE_MAX;
 
   void append(int y, Run run) {
+    if (run.cover == Cover::partial && (active_ += run.x1 - run.x0) > kMaxActivePixels) {
+      throw Error("scene", "the boundary meets more than " + std::to_string(kMaxActivePixels) +
+                               " pixels' windows, too many to hold; give a smaller image or filter, or larger squares");
+    }
     std::size_t& last = last_[static_cast<std::size_t>(y)];
     if (last != kNone && found_[last].run.cover == run.cover) {
       found_[last].run.x1 = run.x1;
@@ -74,6 +81,7 @@ class Enumerator {
   };
   const TestImage& scene_;
   double radius_;
+  std::int64_t active_ = 0;
   std::vector<Found> found_;
   std::vector<std::size_t> last_;  // of each row, in found_
 };

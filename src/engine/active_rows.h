@@ -47,6 +47,10 @@ class ActiveRows {
 // clear of the boundary (none, all) or perhaps not (partial). One pixel: whether it is active.
 Cover classify(const TestImage& scene, double radius, Pixel first, int width = 1, int height = 1);
 
+// Active pixels of an image: each is held with its exact value, bound and samples' estimate.
+inline constexpr std::int64_t kMaxActivePixels = std::int64_t{1} << 27;
+
+// Throws Error for more than kMaxActivePixels.
 ActiveRows enumerate(const TestImage& scene, double radius);
 
 // Calls f(x, y, index) for every active pixel, row-major; index counts from 0.

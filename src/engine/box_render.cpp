@@ -12,8 +12,9 @@
 namespace moire {
 namespace {
 
-// Pixels that go together, so many that handing them out costs next to nothing.
-std::int64_t pixels_together(int n) { return std::clamp((1 << 14) / n, 32, 1024); }
+// Pixels that go together: some 10 us of work at least, beside which handing them out costs little, and no more, since
+// the boundary in a small image has only a few hundred pixels for all threads.
+std::int64_t pixels_together(int n) { return std::clamp((1 << 14) / n, 32, 128); }
 
 class BoxRenderer {
  public:

@@ -14,7 +14,8 @@ constexpr std::size_t kChunk = 512;        // a multiple of kSums: chunks do not
 
 double fold(const double* s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 
-// Adds the samples' weights wx wy to the first eight sums, and those of samples inside, f = 1, to the next eight.
+// Adds the samples' weights wx wy, of a radial filter w 1, to the first eight sums, and those of samples inside, f = 1,
+// to the next eight.
 [[gnu::always_inline]] inline void add_products(const double* __restrict wx, const double* __restrict wy,
                                                 const double* __restrict f, std::size_t n, double* __restrict sums) {
   Lanes k_low, k_high, kf_low, kf_high;
@@ -72,29 +73,81 @@ void multiply(const double* wx, const double* wy, const double* f, std::size_t n
 
 }  // namespace
 
-CellSums::CellSums(const Kernel& kernel, int reach) : kernel_(kernel), reach_(reach) {
-  const auto side = static_cast<std::size_t>(2 * reach + 1);
-  offset_.resize(kChunk);
-  kx_.resize(side * kChunk);
-  ky_.resize(side * kChunk);
+CellSums::CellSums(const Filter& filter)
+    : filter_(filter),
+      reach_(filter.apron()),
+      side_(static_cast<std::size_t>(2 * reach_ + 1)),
+      unit_box_(!filter.is_radial() && filter.kernel().is_unit_box()) {
+  offset_x_.resize(kChunk);
   inside_.resize(kChunk);
-  partial_.resize(side * side * 2 * kSums);
-}
-
-void CellSums::weigh(std::span<const double> coordinate, std::vector<double>& weighed, std::vector<double>& weights) {
-  if (std::equal(coordinate.begin(), coordinate.end(), weighed.begin(), weighed.end())) return;
-  weighed.assign(coordinate.begin(), coordinate.end());
-  for (int d = -reach_; d <= reach_; ++d) {
-    // The sample's distance from the centre of the pixel d cells to the right (below).
-    for (std::size_t i = 0; i < coordinate.size(); ++i) offset_[i] = coordinate[i] - (d + 0.5);
-    kernel_.weights({offset_.data(), coordinate.size()},
-                    {weights.data() + static_cast<std::size_t>(d + reach_) * kChunk, coordinate.size()});
+  partial_.resize(side_ * side_ * 2 * kSums);
+  if (filter.is_radial()) {
+    offset_y_.resize(kChunk);
+    ones_.assign(kChunk, 1.0);
+    weighed_.resize(side_ * side_);
+  } else {
+    kx_.resize(side_ * kChunk);
+    ky_.resize(side_ * kChunk);
   }
 }
 
+void CellSums::take(std::span<const double> x, std::span<const double> y) {
+  if (filter_.is_radial()) {
+    take_radial(x, y);
+  } else {
+    take_separable(x, taken_x_, kx_);
+    take_separable(y, taken_y_, ky_);
+  }
+}
+
+CellSums::Factors CellSums::factors(std::size_t p) {
+  if (filter_.is_radial()) return {radial_weights(p), ones_.data()};
+  return {kx_.data() + (p % side_) * kChunk, ky_.data() + (p / side_) * kChunk};
+}
+
+void CellSums::take_separable(std::span<const double> coordinate, std::vector<double>& taken,
+                              std::vector<double>& weights) {
+  if (std::equal(coordinate.begin(), coordinate.end(), taken.begin(), taken.end())) return;
+  taken.assign(coordinate.begin(), coordinate.end());
+  for (int d = -reach_; d <= reach_; ++d) {
+    // The sample's distance from the centre of the pixel d cells to the right (below).
+    for (std::size_t i = 0; i < coordinate.size(); ++i) offset_x_[i] = coordinate[i] - (d + 0.5);
+    filter_.kernel().weights({offset_x_.data(), coordinate.size()},
+                             {weights.data() + static_cast<std::size_t>(d + reach_) * kChunk, coordinate.size()});
+  }
+}
+
+void CellSums::take_radial(std::span<const double> x, std::span<const double> y) {
+  if (std::equal(x.begin(), x.end(), taken_x_.begin(), taken_x_.end()) &&
+      std::equal(y.begin(), y.end(), taken_y_.begin(), taken_y_.end())) {
+    return;
+  }
+  taken_x_.assign(x.begin(), x.end());
+  taken_y_.assign(y.begin(), y.end());
+  std::fill(weighed_.begin(), weighed_.end(), std::uint8_t{0});
+  // As much as these samples need: whole chunks for side^2 pixels would be 70 MB under a radius of 64.
+  if (kr_.size() < side_ * side_ * x.size()) kr_.resize(side_ * side_ * x.size());
+}
+
+const double* CellSums::radial_weights(std::size_t p) {
+  const std::size_t n = taken_x_.size();
+  double* const weights = kr_.data() + p * n;
+  if (weighed_[p] == 0) {
+    // The pixel's centre, seen from the cell's corner.
+    const double center_x = static_cast<double>(p % side_) - reach_ + 0.5,
+                 center_y = static_cast<double>(p / side_) - reach_ + 0.5;
+    for (std::size_t i = 0; i < n; ++i) offset_x_[i] = taken_x_[i] - center_x;
+    for (std::size_t i = 0; i < n; ++i) offset_y_[i] = taken_y_[i] - center_y;
+    filter_.radial_kernel().weights({offset_x_.data(), n}, {offset_y_.data(), n}, {weights, n});
+    weighed_[p] = 1;
+  }
+  return weights;
+}
+
+// The window is a square, also of a radial filter: what lies in its corners has no weight, but counts.
 void CellSums::count_own(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
                          OwnCount& own) const {
-  const double r = kernel_.radius();
+  const double r = filter_.radius();
   if (r >= 0.5) {  // the window holds the whole cell
     own.samples += static_cast<std::int64_t>(x.size());
     own.inside += count_inside(inside);
@@ -112,28 +165,26 @@ void CellSums::count_own(std::span<const double> x, std::span<const double> y, s
 void CellSums::operator()(std::span<const double> x, std::span<const double> y, std::span<const std::uint8_t> inside,
                           std::span<const std::uint8_t> needed, std::span<WeightSum> sums, OwnCount& own) {
   own = {};
-  if (kernel_.is_unit_box()) {
+  if (unit_box_) {
     // Every weight is exactly 1: the sums are counts, exact in any order.
     own.inside = count_inside(inside);
     own.samples = static_cast<std::int64_t>(inside.size());
     sums[0] = {static_cast<double>(own.samples), static_cast<double>(own.inside)};
     return;
   }
-  const auto side = static_cast<std::size_t>(2 * reach_ + 1);
   std::fill(partial_.begin(), partial_.end(), 0.0);
   for (std::size_t first = 0; first < x.size(); first += kChunk) {
     const std::size_t n = std::min(kChunk, x.size() - first);
-    weigh(x.subspan(first, n), weighed_x_, kx_);
-    weigh(y.subspan(first, n), weighed_y_, ky_);
+    take(x.subspan(first, n), y.subspan(first, n));
     count_own(x.subspan(first, n), y.subspan(first, n), inside.subspan(first, n), own);
     std::copy_n(inside.begin() + static_cast<std::ptrdiff_t>(first), n, inside_.begin());
-    for (std::size_t p = 0; p < side * side; ++p) {
+    for (std::size_t p = 0; p < side_ * side_; ++p) {
       if (needed[p] == 0) continue;
-      multiply(kx_.data() + (p % side) * kChunk, ky_.data() + (p / side) * kChunk, inside_.data(), n,
-               partial_.data() + p * 2 * kSums);
+      const Factors k = factors(p);
+      multiply(k.first, k.second, inside_.data(), n, partial_.data() + p * 2 * kSums);
     }
   }
-  for (std::size_t p = 0; p < side * side; ++p) {
+  for (std::size_t p = 0; p < side_ * side_; ++p) {
     if (needed[p] != 0)
       sums[p] = {fold(partial_.data() + p * 2 * kSums), fold(partial_.data() + p * 2 * kSums + kSums)};
   }

@@ -11,7 +11,9 @@
 #include "core/rounding.h"
 #include "core/sum.h"
 #include "engine/boundary_integral.h"
+#include "engine/radial_integral.h"
 #include "engine/swept_integral.h"
+#include "engine/weight_bounds.h"
 
 namespace moire {
 namespace {
@@ -24,11 +26,27 @@ void require_sweepable(const Filter& filter) {
                                                       std::to_string(SweptIntegral::kMaxPieces));
 }
 
+// The kernel as scenes may know it.
+std::vector<PieceWeight> pieces_of(const Kernel& kernel) {
+  std::vector<PieceWeight> pieces;
+  for (int p = 0; p < kernel.pieces(); ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    const Kernel::PieceBounds& bounds = kernel.bounds(p);
+    pieces.push_back({kernel.knots()[i], kernel.knots()[i + 1], kernel.k_series(p), bounds.k, bounds.k_error_at_x});
+  }
+  return pieces;
+}
+
 // The scene's boundary in one window, integrated. Buffers are kept from pixel to pixel.
 class PixelIntegrator {
  public:
-  PixelIntegrator(const TestImage& scene, const Filter& filter)
-      : scene_(scene), kernel_(filter.kernel()), integral_(filter.kernel()) {
+  PixelIntegrator(const TestImage& scene, const Filter& filter, const WeightAim& aim)
+      : scene_(scene),
+        kernel_(filter.kernel()),
+        aim_(aim),
+        pieces_(pieces_of(kernel_)),
+        bounds_(weight_bounds(kernel_)),
+        integral_(filter.kernel()) {
     if (kernel_.degree() == 0 && kernel_.pieces() == 1) {
       const double k = kernel_.k(0);
       box_ = true;
@@ -48,11 +66,14 @@ class PixelIntegrator {
       if (box) return weighed(*box);
     }
     boundary_.clear();
-    scene_.boundary(pixel, kernel_.radius(), boundary_);
-    // Where the described set differs from the scene, the integral differs by at most max |k k| times that area.
-    const double weight_max = kernel_.k_max() * kernel_.k_max();
-    const double besides = boundary_.area_error * weight_max + motion_error_;
-    return swept_ ? integrated(*swept_, besides) : integrated(integral_, besides);
+    const std::optional<WeightIntegral> known = scene_.weight_integral(pixel, pieces_, aim_, boundary_);
+    if (!known) scene_.boundary(pixel, kernel_.radius(), boundary_);
+    const double besides = doubt(boundary_, bounds_, 2.1 * kernel_.k_max() * kernel_.k_error()) + motion_error_;
+    Exact e = swept_ ? integrated(*swept_, besides) : integrated(integral_, besides);
+    if (!known) return e;
+    e.value += known->value;
+    e.bound += known->bound + kUnit * std::fabs(e.value);
+    return e;
   }
 
  private:
@@ -72,11 +93,39 @@ class PixelIntegrator {
 
   const TestImage& scene_;
   const Kernel& kernel_;
+  WeightAim aim_;
+  std::vector<PieceWeight> pieces_;
+  WeightBounds bounds_;
   bool box_ = false;  // the kernel is one constant: its square, and what that may be off by
   double box_weight_ = 0, box_weight_error_ = 0;
   BoundaryIntegral integral_;
   std::optional<SweptIntegral> swept_;  // of a scene that moves by more than nothing
   double motion_error_ = 0;
+  Boundary boundary_;
+};
+
+// The same with a radial filter.
+class RadialPixelIntegrator {
+ public:
+  RadialPixelIntegrator(const TestImage& scene, const Filter& filter)
+      : scene_(scene), kernel_(filter.radial_kernel()), bounds_(weight_bounds(kernel_)), integral_(kernel_) {
+    if (scene.sweep() != Vec2{}) require_separable(filter, "the exact value of a moving scene");
+  }
+
+  Exact operator()(Pixel pixel) {
+    boundary_.clear();
+    scene_.boundary(pixel, kernel_.radius(), boundary_);
+    integral_.reset();
+    for (const Segment& s : boundary_.segments) integral_.add(s);
+    for (const Circle& c : boundary_.circles) integral_.add(c);
+    return {integral_.value() + 0.0, integral_.bound() + doubt(boundary_, bounds_, kernel_.k_error())};
+  }
+
+ private:
+  const TestImage& scene_;
+  const RadialKernel& kernel_;
+  WeightBounds bounds_;
+  RadialIntegral integral_;
   Boundary boundary_;
 };
 
@@ -94,7 +143,7 @@ std::vector<int> bands_of(const ActiveRows& rows) {
 
 }  // namespace
 
-Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel) {
+Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel, const WeightAim& aim) {
   switch (classify(scene, filter.radius(), pixel)) {
     case Cover::none:
       return {0, 0};
@@ -103,10 +152,10 @@ Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel) {
     case Cover::partial:
       break;
   }
-  return PixelIntegrator(scene, filter)(pixel);
+  return filter.is_radial() ? RadialPixelIntegrator(scene, filter)(pixel) : PixelIntegrator(scene, filter, aim)(pixel);
 }
 
-Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows) {
+Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows, const WeightAim& aim) {
   Reference reference;
   reference.value.resize(static_cast<std::size_t>(rows.active_pixels()));
   reference.bound.resize(reference.value.size());
@@ -114,17 +163,20 @@ Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& 
   parallel_for(bands.size() - 1, [&](std::size_t band) {
     auto index = static_cast<std::size_t>(rows.first_active(bands[band]));
     if (rows.first_active(bands[band]) == rows.first_active(bands[band + 1])) return;
-    PixelIntegrator integrate(scene, filter);
-    for (int y = bands[band]; y < bands[band + 1]; ++y) {
-      for (const Run& run : rows.row(y)) {
-        if (run.cover != Cover::partial) continue;
-        for (std::int32_t x = run.x0; x < run.x1; ++x, ++index) {
-          const Exact e = integrate({x, y});
-          reference.value[index] = e.value;
-          reference.bound[index] = e.bound;
+    const auto fill = [&](auto integrate) {
+      for (int y = bands[band]; y < bands[band + 1]; ++y) {
+        for (const Run& run : rows.row(y)) {
+          if (run.cover != Cover::partial) continue;
+          for (std::int32_t x = run.x0; x < run.x1; ++x, ++index) {
+            const Exact e = integrate({x, y});
+            reference.value[index] = e.value;
+            reference.bound[index] = e.bound;
+          }
         }
       }
-    }
+    };
+    if (filter.is_radial()) return fill(RadialPixelIntegrator(scene, filter));
+    fill(PixelIntegrator(scene, filter, aim));
   });
   Sum squares;
   for (const double b : reference.bound) {

@@ -15,9 +15,11 @@ struct Exact {
   double value = 0, bound = 0;
 };
 
-// The exact value of one pixel, also outside the image. Pixels that are not active are exactly 0 or 1 with bound 0.
-// Throws Error for a moving scene under a kernel of too many pieces (SweptIntegral::kMaxPieces); so does exact().
-Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel);
+// The exact value of one pixel, also outside the image. `aim` matters where a scene has detail without end
+// (HasWeightIntegral): smaller bounds take more time, and where they can not be had the bound says so. Pixels that are
+// not active are exactly 0 or 1 with bound 0. Throws Error for a moving scene under a kernel of too many pieces
+// (SweptIntegral::kMaxPieces); so does exact().
+Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel, const WeightAim& aim = {});
 
 // The exact values of the active pixels, row-major as for_each_active counts them.
 struct Reference {
@@ -25,6 +27,6 @@ struct Reference {
   double max_bound = 0;
   double rms_bound = 0;  // root of the mean squared bound: what the reference may add to a root mean squared error
 };
-Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows);
+Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows, const WeightAim& aim = {});
 
 }  // namespace moire

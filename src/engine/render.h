@@ -6,31 +6,22 @@
 #include <vector>
 
 #include "engine/active_rows.h"
+#include "engine/estimator.h"
 #include "engine/samples.h"
 #include "filters/filter.h"
 #include "testimages/testimage.h"
 
 namespace moire {
 
-// How samples x_i with values f_i become a pixel; k the filter's weights, rho the samples per pixel.
-enum class Estimator : std::uint8_t {
-  ratio,           // sum k f / sum k; the control variate where sum k < rho / 4. Exact on flat windows.
-  unnormalised,    // sum k f / rho: unbiased and linear, so that spectral theory applies; noisy on flat windows
-  control_variate  // m + sum k (f - m) / rho, m the mean of the pixel's own samples in its window: exact where flat
-};
-
-// The estimators by name; throws Error naming the nearest ones.
-std::span<const std::string_view> estimator_names();
-Estimator find_estimator(std::string_view name, std::string_view place);
-
 // Which pixels have a value of their own; the others are exactly 0 or 1, as their windows are.
 enum class Pixels : std::uint8_t {
   active,   // ratio and control_variate: flat windows give exactly 0 or 1
-  covered,  // unnormalised: also the pixels whose windows are all inside, where the weights' sum shows
+  covered,  // unnormalised, and importance with negative lobes: also the pixels whose windows are all inside, where
+            // the weights' sum shows
   every     // exhaustive
 };
 
-// Those that an estimator's image consists of.
+// Those that an estimator's image consists of; of importance estimators that of a filter without negative lobes.
 constexpr Pixels rendered_pixels(Estimator estimator, bool exhaustive) {
   if (exhaustive) return Pixels::every;
   return estimator == Estimator::unnormalised ? Pixels::covered : Pixels::active;
@@ -39,7 +30,7 @@ constexpr Pixels rendered_pixels(Estimator estimator, bool exhaustive) {
 struct Rendered {
   Pixels pixels = Pixels::active;
   std::vector<double> value;       // of these pixels, row-major
-  std::int64_t samples_total = 0;  // samples of the image grown by the filter's apron
+  std::int64_t samples_total = 0;  // samples of the image grown by the filter's apron; without it for importance
   // Point tests made of samples. What was counted without one is not among them (box_count.h), nor is a fallback's look
   // at the pixel's centre.
   std::int64_t samples_evaluated = 0;
@@ -64,13 +55,15 @@ void for_each_rendered(const ActiveRows& rows, const Rendered& rendered, F&& f) 
 }
 
 // Refuses, naming the limit, what no machine here could count or hold: more than 2^53 samples in the image grown by the
-// filter's apron, or more than 8 GiB of sums for the rows of cells that a window spans. `place` is for the message.
-void require_renderable(Grid grid, const Filter& filter, std::int64_t spp, std::string_view place);
+// filter's apron, or more than 8 GiB of sums for the rows of cells that a window spans. Importance estimators have
+// neither apron nor sums. `place` is for the message.
+void require_renderable(Grid grid, const Filter& filter, Estimator estimator, std::int64_t spp, std::string_view place);
 
 // `exhaustive` evaluates every sample of every pixel, without any skipping; the values of the pixels of the default
 // path are the same bit for bit, and the others come out as exactly 0 or 1. `rows` must come from `scene` and
-// filter.radius(), and require_renderable() must have passed; a set over the image must be of its size and the filter's
-// apron. A moving scene is sampled at the times of the samples: then samples.has_time() must hold.
+// filter.radius(), and require_renderable() and require_layout() must have passed; a set over the image must be of its
+// size and the filter's apron. A moving scene is sampled at the times of the samples: then samples.has_time() must
+// hold.
 Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive = false);
 

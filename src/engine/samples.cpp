@@ -26,6 +26,8 @@ Layout find_layout(std::string_view name, std::string_view place) {
   throw Error(std::string(place), unknown_name("layout", name, kLayoutNames));
 }
 
+bool Samples::same_in_all_pixels() const noexcept { return pattern() != nullptr && !pattern()->varies(); }
+
 double Samples::density() const noexcept {
   if (const auto* pattern = std::get_if<const Pattern*>(&source_)) return (*pattern)->n();
   return std::get<const AreaPoints*>(source_)->density();

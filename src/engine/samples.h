@@ -41,6 +41,8 @@ class Samples {
     const auto* pattern = std::get_if<const Pattern*>(&source_);
     return pattern == nullptr ? nullptr : *pattern;
   }
+  // Whether x and y are the same in every pixel.
+  bool same_in_all_pixels() const noexcept;
   // Samples per pixel, on the average over the image and its apron.
   double density() const noexcept;
   // Samples of an image and its apron.

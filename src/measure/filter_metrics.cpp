@@ -10,19 +10,12 @@
 #include "core/sum.h"
 #include "curve/quadrature.h"
 #include "measure/turning_points.h"
+#include "measure/wave_terms.h"
 
 namespace moire {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// Terms of the Chebyshev series of exp(i c t), |t| <= 1, that rounding can see: the coefficient of T_j is 2 J_j(c), and
-// |J_j(c)| <= (c/2)^j / j!.
-int terms_of_wave(double c) {
-  int j = 0;
-  for (double term = 1; term > 1e-18 || j < c; ++j) term *= c / 2 / (j + 1);
-  return j;
-}
 
 // Where k is evaluated for all integrals over x.
 struct Node {

@@ -11,6 +11,8 @@
 //    Discrete Fourier Transform", Proc. IEEE 66(1), 1978, with sums turned into integrals.
 //  - alias energy of an edge and anisotropy are ours.
 //
+// Radial filters have the same numbers, in the plane: radial_metrics.h.
+//
 // An asymmetric kernel is measured about its mean: a shift neither blurs nor rings. For even kernels, the whole
 // catalogue but tables that a user brings, the mean is zero and nothing changes.
 //
@@ -38,8 +40,8 @@ struct FilterMetrics {
   double overshoot_percent = 0;  // of a step, by its height: the larger of max K - 1 and -min K (the step down)
   double smoothing = 0;          // 1 - integral of |H|^2 over the Nyquist square; 0 keeps all, negative where H > 1
   double postaliasing = 0;       // integral of |H|^2 outside the Nyquist square
-  // Integral of k^2, and its square for the image: a flat field of 1, taken as sum k / N over independent samples, N per
-  // pixel and scattered without regard to pixels, has the variance noise_gain / N.
+  // Integral of k^2, and its square for the image: a flat field of 1, taken as sum k / N over independent samples, N
+  // per pixel and scattered without regard to pixels, has the variance noise_gain / N.
   double noise_gain_1d = 0, noise_gain = 0;
   // 2 times the integral over f > 1/2 of (|H(f)| / (2 pi f))^2: the energy (coverage^2 pixels, per pixel of its length)
   // that a filtered edge, upright or level, keeps above the Nyquist frequency and so as aliases.

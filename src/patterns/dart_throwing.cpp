@@ -23,6 +23,8 @@
 #include "patterns/area.h"
 #include "patterns/dart_process.h"
 #include "patterns/pattern.h"
+#include "patterns/placed_grid.h"
+#include "patterns/point_grid.h"
 #include "patterns/torus.h"
 
 namespace moire {
@@ -34,7 +36,8 @@ constexpr Param kParams[] = {
             "sets per seed and trial, of which a pixel takes one, shifted on the torus; 0 makes a "
             "new set in every pixel")};
 
-// Most points that the sets of a bank may have together: 2^24, which is 256 MiB.
+// Most points that the sets of a bank may have together: 2^24, which is 256 MiB, and as much again where they are
+// sorted into cells.
 constexpr std::int64_t kMaxBankPoints = std::int64_t{1} << 24;
 
 // Most boxes to a side of the torus: 12 MiB for each thread, 768 MiB for an area.
@@ -91,6 +94,10 @@ class DartThrowing {
                               "is at most {}, so here bank={} or less, but not 0, which keeps none",
                               bank_, n, kMaxBankPoints, kMaxBankPoints / n));
     bank_points_ = std::make_unique_for_overwrite<double[]>(2 * static_cast<std::size_t>(bank_ * n));
+    if (n < kLeastForCells) return;
+    sorted_ = std::make_unique<std::once_flag[]>(static_cast<std::size_t>(bank_));
+    grids_.reserve(static_cast<std::size_t>(bank_));
+    for (std::int64_t s = 0; s < bank_; ++s) grids_.emplace_back(static_cast<std::size_t>(n));
   }
 
   void fill(std::span<const Pixel> run, Points out) const noexcept {
@@ -100,15 +107,22 @@ class DartThrowing {
       if (bank_ == 0) {
         make_set(key, Axis::dart, x, y);
       } else {
-        const std::span<const double> set = from_bank(hash(key, 0, Axis::pick));
+        const Set set = from_bank(pick(key));
         const Words w = hash(key, 0, Axis::shift);
-        const auto n = static_cast<std::size_t>(n_);
-        shift_into(set.first(n), unit(w.a, w.b), x);
-        shift_into(set.last(n), unit(w.c, w.d), y);
+        shift_into(set.x, unit(w.a, w.b), x);
+        shift_into(set.y, unit(w.c, w.d), y);
       }
       x += n_;
       y += n_;
     }
+  }
+
+  // See HasCells (pattern.h). Sets that are made anew in each pixel have none.
+  static constexpr int kLeastForCells = kLeastPlacedCells;
+  CellGrid cells(Pixel pixel) const noexcept { return grids_.empty() ? CellGrid{} : shifted(pixel).cells(); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return shifted(pixel).take(counted, filled, out);
   }
 
   static constexpr auto area_count = any_area_count;
@@ -128,21 +142,43 @@ class DartThrowing {
     workshop_.borrow([&](DartProcess::Memory& memory) { DartProcess(key, axis, k_, memory, x, y).run(n_); });
   }
 
-  // One set of the bank, all with the same probability to 2^-32: n x-coordinates, then n y-coordinates.
-  std::span<const double> from_bank(const Words& random) const noexcept {
-    const auto s = static_cast<std::int64_t>((std::uint64_t{random.a} * static_cast<std::uint64_t>(bank_)) >> 32);
-    double* const x = bank_points_.get() + 2 * s * n_;
-    std::call_once(made_[static_cast<std::size_t>(s)], [&] {
-      make_set(pixel_key(draw_, {s, 0}), Axis::bank, x, x + n_);
+  struct Set {
+    std::span<const double> x, y;
+  };
+
+  // Which set of the bank a pixel takes: all have the same probability to 2^-32.
+  std::size_t pick(const Key& key) const noexcept {
+    const Words random = hash(key, 0, Axis::pick);
+    return static_cast<std::size_t>((std::uint64_t{random.a} * static_cast<std::uint64_t>(bank_)) >> 32);
+  }
+
+  Set from_bank(std::size_t s) const noexcept {
+    const auto n = static_cast<std::size_t>(n_);
+    double* const x = bank_points_.get() + 2 * s * n;
+    std::call_once(made_[s], [&] {
+      make_set(pixel_key(draw_, {static_cast<std::int64_t>(s), 0}), Axis::bank, x, x + n);
     });
-    return {x, 2 * static_cast<std::size_t>(n_)};
+    return {{x, n}, {x + n, n}};
+  }
+
+  ShiftedGrid shifted(Pixel pixel) const noexcept {
+    const Key key = pixel_key(draw_, pixel);
+    const std::size_t s = pick(key);
+    std::call_once(sorted_[s], [&] {
+      const Set set = from_bank(s);
+      grids_[s].sort(set.x, set.y);
+    });
+    const Words w = hash(key, 0, Axis::shift);
+    return {grids_[s], unit(w.a, w.b), unit(w.c, w.d)};
   }
 
   int n_;
   std::int64_t k_, bank_;
   std::uint64_t draw_;
-  std::unique_ptr<std::once_flag[]> made_;  // one per set
-  std::unique_ptr<double[]> bank_points_;   // 2 n per set, untouched until the set is made
+  std::unique_ptr<std::once_flag[]> made_;    // one per set
+  std::unique_ptr<double[]> bank_points_;     // 2 n per set, untouched until the set is made
+  std::unique_ptr<std::once_flag[]> sorted_;  // one per set, where there are grids
+  mutable std::vector<PointGrid> grids_;      // likewise; written once, behind the flag
   mutable Workshop workshop_;
 };
 

@@ -45,10 +45,7 @@ struct PlainSet {
 
 class Instances {
  public:
-  // Pixels of 256 fixed points take 210 ns on an edge and 400 on a disk by cells, 160 and 220 where all are tested with
-  // AVX-512, 400 and 550 without; 1,024 points take 350 and 660 by cells, and 470 and 570 at least where all are
-  // tested.
-  static constexpr int kLeastForCells = 256;
+  static constexpr int kLeastForCells = kLeastPlacedCells;
   // Whether cells() is to have an answer: that needs 20 bytes a point more.
   static constexpr bool kWithCells = true;
 

@@ -52,9 +52,10 @@ struct JitteredGrid {
   // The points of a pixel, columns * rows of them, from numbers of Axis::xy.
   void fill(const Key& key, double* x, double* y) const noexcept;
 
-  // The same by cells, each of which has one point: see HasCells (pattern.h). On an edge and a disk 200 and 320 ns a
-  // pixel of 64 points, where testing all takes 550 ns plain, 270 with AVX2 and 180 with AVX-512; at 256: 310 and 450.
-  static constexpr int kLeastForCells = 64;
+  // The same by cells, each of which has one point: see HasCells (pattern.h). With AVX-512, on an edge and a disk, 64
+  // points take 250 and 330 ns by cells and 180 and 220 where all are tested; 100, not a power of two, 250 and 450, and
+  // 440 and 540; 256 take 330 and 480, and 500 and 590 (tests/bench/box_count.cpp).
+  static constexpr int kLeastForCells = 100;
   CellGrid cells() const noexcept { return {columns, rows, 0, 0}; }
   CellPoints take_cells(const Key& key, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
                         Points out) const noexcept;

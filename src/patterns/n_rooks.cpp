@@ -1,5 +1,8 @@
 // N-rooks sampling (Latin hypercube): a random permutation puts one point in each of the N columns and N rows, anywhere
 // inside both strata. P. Shirley, "Discrepancy as a quality measure for sample distributions", Eurographics 1991.
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <utility>
 
 #include "patterns/area.h"
@@ -10,15 +13,19 @@
 namespace moire {
 namespace {
 
-// Fisher-Yates, inside out and in place: y becomes the permutation, x holds the draws it is made from.
-void permute(const Key& key, Axis order, int n, double* __restrict x, double* __restrict y) noexcept {
-  for (int i = 0; i < n; ++i) {
-    const Words w = hash(key, static_cast<std::uint32_t>(i), order);
-    x[i] = uniform_below(w.a, w.b, static_cast<std::uint32_t>(i) + 1);
-  }
-  for (int i = 0; i < n; ++i) {
-    y[i] = i;
-    std::swap(y[i], y[static_cast<std::int32_t>(x[i])]);
+// Numbers that are drawn at a time.
+constexpr int kChunk = 256;
+
+// Fisher-Yates, inside out: p becomes the permutation.
+void permute(const Key& key, Axis order, int n, double* p) noexcept {
+  std::array<std::uint64_t, kChunk> bits;
+  for (int done = 0; done < n; done += kChunk) {
+    const int count = std::min(kChunk, n - done);
+    uniform_bits(key, order, static_cast<std::uint32_t>(done), {bits.data(), static_cast<std::size_t>(count)});
+    for (int i = done; i < done + count; ++i) {
+      p[i] = i;
+      std::swap(p[i], p[uniform_below(bits[static_cast<std::size_t>(i - done)], static_cast<std::uint32_t>(i) + 1)]);
+    }
   }
 }
 
@@ -26,11 +33,15 @@ void permute(const Key& key, Axis order, int n, double* __restrict x, double* __
 void place_rooks(const Key& key, Axis order, Axis position, int n, double* __restrict x,
                  double* __restrict y) noexcept {
   const Strata strata(n);
-  permute(key, order, n, x, y);
-  for (int i = 0; i < n; ++i) {
-    const Words w = hash(key, static_cast<std::uint32_t>(i), position);
-    x[i] = strata.place(i, strata.offset(unit(w.a, w.b)));
-    y[i] = strata.place(y[i], strata.offset(unit(w.c, w.d)));
+  permute(key, order, n, y);
+  std::array<double, kChunk> u, v;
+  for (int done = 0; done < n; done += kChunk) {
+    const int count = std::min(kChunk, n - done);
+    uniform_points(key, position, static_cast<std::uint64_t>(done), count, u.data(), v.data());
+    for (int i = 0; i < count; ++i) {
+      x[done + i] = strata.place(done + i, strata.offset(u[static_cast<std::size_t>(i)]));
+      y[done + i] = strata.place(y[done + i], strata.offset(v[static_cast<std::size_t>(i)]));
+    }
   }
 }
 

@@ -91,7 +91,8 @@ PatternInfo::Counts square_count(const Args&, int n) {
   return m * m == n ? PatternInfo::Counts{n, n} : PatternInfo::Counts{m * m, (m + 1) * (m + 1)};
 }
 
-Pattern::Pattern(const PatternChoice& choice, int n, Draw draw) : info_(&choice.info()), n_(n) {
+Pattern::Pattern(const PatternChoice& choice, int n, Draw draw)
+    : info_(&choice.info()), n_(n), varies_(choice.varies()) {
   choice.require_count(n);
   self_ = info_->make(choice.args(), n, draw);
 }

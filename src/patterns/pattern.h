@@ -73,7 +73,8 @@ concept FillsArea = requires(const Args& args, Grid area, std::int64_t n, Draw d
 // A pattern may know how its points lie in cells (cells.h). cells() says it for a pixel; take_cells() counts the points
 // of some cells, and writes x and y of those of others, the bits of fill() in any order. No cell may be named twice.
 // `out` has room for n points. Only asked where t is not wanted, and from kLeastForCells points a pixel on: with fewer
-// it is faster to test all (on edges and disks, whose boundaries are the fastest to follow).
+// it is faster to test all (on edges and disks, whose boundaries are the fastest to follow). The count decides and not
+// the machine, so that everywhere as many samples are tested.
 template <class P>
 concept HasCells = requires(const P& p, Pixel pixel, std::span<const CellSpan> cells, Points out) {
   { P::kLeastForCells } -> std::convertible_to<int>;
@@ -151,6 +152,8 @@ class Pattern {
  public:
   Pattern(const PatternChoice& choice, int n, Draw draw);  // throws Error as require_count does
   int n() const noexcept { return n_; }
+  // Whether x and y differ by seed, trial and pixel; if not, they are the same in every pixel.
+  bool varies() const noexcept { return varies_; }
   bool has_time() const noexcept { return info_->has_time; }
   // out.x and out.y hold run.size() * n() points, pixel-major; out.t as many, or none. Precondition for t: has_time().
   void fill(std::span<const Pixel> run, Points out) const noexcept { info_->fill(self_.get(), run, out); }
@@ -170,6 +173,7 @@ class Pattern {
   const PatternInfo* info_;
   std::shared_ptr<const void> self_;
   int n_;
+  bool varies_;
 };
 
 // The counts of patterns that take any number of points.

@@ -33,6 +33,12 @@ inline CellPoints take_cells_of(const PointGrid& grid, std::span<const CellSpan>
   return points;
 }
 
+// Points of a pixel from which cells of fixed sets are faster than testing all: see HasCells (pattern.h). Their points
+// cost next to nothing to make, and with AVX-512 256 of them take 200 ns on an edge and 250 on a disk where all are
+// tested, 370 and 510 by cells; 1024 take 600 and 700, and 600 and 680; 4096 take 3400 and 3600, and 810 and 1230.
+// Shifted and scrambled ones meet at the same count, with twice those times (tests/bench/box_count.cpp).
+inline constexpr int kLeastPlacedCells = 1024;
+
 // Shifted by x and y in [0, 1), multiples of 2^-52; the grid must outlive it.
 class ShiftedGrid {
  public:

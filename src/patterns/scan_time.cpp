@@ -52,6 +52,14 @@ struct ScanTime {
     }
   }
 
+  // Where no times are wanted these are the points of `jittered`.
+  static constexpr int kLeastForCells = JitteredGrid::kLeastForCells;
+  CellGrid cells(Pixel) const noexcept { return grid.cells(); }
+  CellPoints take_cells(Pixel pixel, std::span<const CellSpan> counted, std::span<const CellSpan> filled,
+                        Points out) const noexcept {
+    return grid.take_cells(pixel_key(draw, pixel), counted, filled, out);
+  }
+
  private:
   // Candidate j of point i is part j of number i: with more candidates, the first ones stay the same.
   void scan(const Key& key, Points points) const noexcept {

@@ -28,9 +28,11 @@ class Strata {
     return std::bit_cast<double>((bits & keep_) | half_) - 1.0;
   }
 
-  // offset() of the uniform number digits / 2^52, digits < 2^52, without making that number first.
-  double offset_of_digits(std::uint64_t digits) const noexcept {
-    return std::bit_cast<double>(((0x3FF0000000000000u | digits) & keep_) | half_) - 1.0;
+  // 1 + offset() of the uniform number digits / 2^52, without making that number first: takes digits < 2^52, a number
+  // or a vector of them, and leaves the bits of a double.
+  template <class Bits>
+  [[gnu::always_inline]] void one_plus_offset(Bits& digits) const noexcept {
+    digits = ((0x3FF0000000000000u | digits) & keep_) | half_;
   }
 
   // The coordinate of offset u in stratum `cell`, correctly rounded.

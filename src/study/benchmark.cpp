@@ -51,8 +51,11 @@ std::vector<double> active_values(const ActiveRows& rows, const Rendered& render
   return values;
 }
 
-// Estimators that render other pixels, too, need other cells than time_stages() goes through.
-bool has_stages(Estimator estimator) { return rendered_pixels(estimator, false) == Pixels::active; }
+// Estimators that render other pixels, too, need other cells than time_stages() goes through, and importance estimators
+// have samples of their own.
+bool has_stages(Estimator estimator) {
+  return rendered_pixels(estimator, false) == Pixels::active && !is_importance(estimator);
+}
 
 // Nanoseconds of one call of f, the mean of `loops`.
 template <class F>
@@ -210,7 +213,7 @@ class Bench {
 
   void find_reference(std::uint32_t scene, std::uint32_t filter, int round, TimedTruth& to) const {
     const ThreadLimit one(1);
-    Truth truth = find_truth(study_.scenes[scene].image, study_.filters[filter]);
+    Truth truth = find_truth(study_.scenes[scene].image, study_.filters[filter], study_.accuracy);
     if (round > 0) return to.timings.push_back(static_cast<double>(truth.time_ns));
     to.cells.emplace(truth.rows, study_.filters[filter].apron());
     to.rows.emplace(std::move(truth.rows));

@@ -85,40 +85,82 @@ std::string_view kind_name(Node::Kind kind) {
 
 namespace {
 
-// toml++ follows a dotted key by recursion: a key of many thousand parts would end the stack. Nothing here needs more
-// than a handful. Dots are counted between characters that no key holds, quoted strings left out.
-void refuse_deep_keys(std::string_view text, std::string_view file) {
-  constexpr int kMaxDots = 64;
-  std::size_t line = 1, line_begin = 0;
-  int dots = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\n') {
-      ++line;
-      line_begin = i + 1;
-      dots = 0;
-    } else if (c == '"' || c == '\'') {
-      // To the closing quote on this line; a multi-line string ends its line, which resets the count.
-      const std::size_t end = text.find_first_of(c == '"' ? "\"\n" : "'\n", i + 1);
-      if (end == std::string_view::npos) return;
-      i = text[end] == '\n' ? end - 1 : end;
-    } else if (c == '.') {
-      if (++dots > kMaxDots) {
-        throw Error(fmt::format("{}:{}:{}", file, line, i - line_begin + 1),
-                    fmt::format("a key of more than {} dotted parts; no key here needs more than three", kMaxDots));
+// toml++, its destructors and copy() above follow tables within tables by recursion: a text nested many thousand levels
+// deep would end the stack. Nothing here needs more than a handful. Dots are counted between characters that no key
+// holds, brackets as they open; what stands in strings and comments does not count.
+class Nesting {
+ public:
+  Nesting(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+
+  void check() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'') {
+        if (!skip_string(c)) return;  // never closed, which toml++ refuses where it begins
+        continue;
       }
-    } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
-      dots = 0;
-    } else if (c == '#') {
-      i = std::min(text.find('\n', i), text.size()) - 1;
+      if (c == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+        continue;
+      }
+      count(c);
+      ++at_;
     }
   }
-}
+
+ private:
+  static constexpr int kMaxDots = 64, kMaxBrackets = 16;
+
+  void count(char c) {
+    if (c == '.') {
+      if (++dots_ > kMaxDots) refuse("a key of more than {} dotted parts; no key here needs more than three", kMaxDots);
+      return;
+    }
+    const bool opens = c == '[' || c == '{', closes = c == ']' || c == '}';
+    if (opens && ++brackets_ > kMaxBrackets) {
+      refuse("lists and tables are nested more than {} deep; nothing here needs more than three", kMaxBrackets);
+    }
+    if (closes && brackets_ > 0) --brackets_;
+    if (opens || closes || c == '=' || c == ',' || c == '\n') dots_ = 0;
+  }
+
+  // From an opening quote to behind the closing one; false when there is none. Basic strings have escapes, literal ones
+  // have not; three quotes make a string of several lines, which may end in up to two quotes of its own.
+  bool skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool multi = text_.substr(at_).starts_with(three);
+    at_ += multi ? 3 : 1;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\\' && quote == '"') {
+        ++at_;
+      } else if (c == '\n' && !multi) {
+        return false;
+      } else if (c == quote && (!multi || text_.substr(at_).starts_with(three))) {
+        at_ += multi ? 3 : 1;
+        for (int more = 0; multi && more < 2 && at_ < text_.size() && text_[at_] == quote; ++more) ++at_;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  [[noreturn]] void refuse(const char* what, int most) const {
+    const std::string_view before = text_.substr(0, at_);
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0: the first line
+    throw Error(fmt::format("{}:{}:{}", file_, line, column), fmt::format(fmt::runtime(what), most));
+  }
+
+  std::string_view text_, file_;
+  std::size_t at_ = 0;
+  int dots_ = 0, brackets_ = 0;
+};
 
 }  // namespace
 
 Node parse_toml(std::string_view text, std::string_view file) {
-  refuse_deep_keys(text, file);
+  Nesting(text, file).check();
   try {
     return copy(toml::parse(text), file);
   } catch (const toml::parse_error& e) {

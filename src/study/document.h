@@ -27,7 +27,8 @@ struct Node {
 // "a text", "a whole number", ...: for messages.
 std::string_view kind_name(Node::Kind kind);
 
-// Reads TOML 1.0. `file` is what messages call the text. Throws Error with file:line:column.
+// Reads TOML 1.0. `file` is what messages call the text. Throws Error with file:line:column, also for keys of more than
+// 64 parts and values more than 16 lists or tables deep.
 Node parse_toml(std::string_view text, std::string_view file);
 
 // The value as a finite double. Throws Error for anything else, also for integers that no double holds exactly.

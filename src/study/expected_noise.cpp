@@ -78,6 +78,7 @@ std::vector<double> ExpectedNoise::of(const Case& c) {
     return {};
   }
   const Filter& filter = study_.filters[c.filter];
+  if (filter.is_radial()) return {};
   const Grid grid = study_.scenes[c.scene].image.grid();
   const int apron = filter.apron();
   const Grid area{grid.width + 2 * apron, grid.height + 2 * apron};

@@ -1,21 +1,30 @@
 // Filter metrics as rows.
 #include "study/filter_table.h"
 
-#include "measure/filter_metrics.h"
+#include "measure/radial_metrics.h"
 
 namespace moire {
+namespace {
+
+// The cells of either kind of kernel; then its metrics.
+template <class K>
+FilterMetrics describe_kernel(Row& row, const K& kernel) {
+  row.set("radius", kernel.radius());
+  row.set("pieces", std::int64_t{kernel.pieces()});
+  row.set("degree", std::int64_t{kernel.degree()});
+  row.set("kernel_error", kernel.k_error());
+  return filter_metrics(kernel);
+}
+
+}  // namespace
 
 Table filter_table(std::span<const Filter> filters) {
   Table table;
   for (const Filter& filter : filters) {
-    const Kernel& kernel = filter.kernel();
-    const FilterMetrics m = filter_metrics(kernel);
     Row row;
     row.set("filter", filter.text());
-    row.set("radius", m.radius);
-    row.set("pieces", std::int64_t{kernel.pieces()});
-    row.set("degree", std::int64_t{kernel.degree()});
-    row.set("kernel_error", kernel.k_error());
+    const FilterMetrics m =
+        filter.is_radial() ? describe_kernel(row, filter.radial_kernel()) : describe_kernel(row, filter.kernel());
     row.set("integral", m.integral);
     row.set("ripple", m.ripple);
     row.set("mean", m.mean);

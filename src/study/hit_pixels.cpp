@@ -10,6 +10,7 @@
 namespace moire {
 
 bool has_edge_ratio(const Study& study, const Case& c) {
+  if (study.filters[c.filter].is_radial()) return false;
   const Kernel& kernel = study.filters[c.filter].kernel();
   const bool own_samples = kernel.degree() == 0 && kernel.pieces() == 1 && kernel.radius() == 0.5;
   const TestImage& scene = study.scenes[c.scene].image;

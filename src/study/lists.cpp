@@ -15,6 +15,9 @@ const std::vector<Node>& list_of(const Node& node, std::string_view what, std::s
                 fmt::format("{} is {}; give a list such as {}", what,
                             node.kind == Node::Kind::list ? "an empty list" : kind_name(node.kind), example));
   }
+  if (node.items.size() > kMaxListed) {
+    throw Error(node.place, fmt::format("{} has {} entries; give at most {}", what, node.items.size(), kMaxListed));
+  }
   return node.items;
 }
 

@@ -1,6 +1,7 @@
-// Lists in study files: not empty, and nothing twice.
+// Lists in study files: not empty, not endless, and nothing twice.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -11,7 +12,11 @@
 
 namespace moire {
 
-// The members of a list that must not be empty; `what` names it and `example` shows one in the message. Throws Error.
+// Entries of a list: each one is compared with all others, and makes a pattern, a filter or a block of cases.
+inline constexpr std::size_t kMaxListed = 4096;
+
+// The members of a list that must have some, at most kMaxListed; `what` names it and `example` shows one in the
+// message. Throws Error.
 const std::vector<Node>& list_of(const Node& node, std::string_view what, std::string_view example);
 
 // Throws Error unless `inserted`.

@@ -34,7 +34,7 @@ const Truth& OptionalMeasures::box(std::uint32_t scene) {
   const auto known = boxes_.find(scene);
   if (known != boxes_.end()) return known->second;
   const Filter unit_box(parse_spec("box", "coverage"));
-  return boxes_.emplace(scene, find_truth(study_.scenes[scene].image, unit_box)).first->second;
+  return boxes_.emplace(scene, find_truth(study_.scenes[scene].image, unit_box, study_.accuracy)).first->second;
 }
 
 const OptionalMeasures::OfExact& OptionalMeasures::of_exact(const Case& c, const Truth& truth) {

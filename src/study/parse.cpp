@@ -20,24 +20,61 @@
 namespace moire {
 namespace {
 
-constexpr std::array<std::string_view, 11> kStudyKeys = {
-    "name", "seed", "trials", "layout", "spp", "patterns", "filters", "estimators", "measures", "images", "spectrum"};
+constexpr std::array<std::string_view, 12> kStudyKeys = {"name",     "seed",     "trials",   "layout",
+                                                         "spp",      "patterns", "filters",  "estimators",
+                                                         "measures", "images",   "spectrum", "accuracy"};
+
+// The bound that exact values aim at, near the horizon and elsewhere.
+WeightAim accuracy_of(const Node& node) {
+  const double aim = exact_number(node);
+  if (!(aim >= kFinestAim && aim <= kCoarsestAim)) {
+    throw Error(node.place,
+                fmt::format("accuracy = {}; a number from {} to {}, the error bound that exact values aim at",
+                            shortest(aim), shortest(kFinestAim), shortest(kCoarsestAim)));
+  }
+  return {aim, aim};
+}
+
+// Puts the text of a file that the study names behind the study's own.
+void append_file(std::string_view name, const std::string& text, const std::string& place, std::string& study_text) {
+  study_text += fmt::format("\n# {}\n{}", name, text);
+  if (study_text.size() > kMaxStudyBytes) {
+    throw Error(place,
+                fmt::format("the study has more than {} MiB with the files that it names; name fewer, or smaller "
+                            "ones",
+                            kMaxStudyBytes >> 20));
+  }
+}
 
 // Paths start from `folder`, the study file's. The texts of files that the filter reads are appended to the study's.
 Filter make_filter(const std::string& text, const std::string& place, const std::filesystem::path& folder,
                    std::string& study_text) {
   Spec spec = parse_spec(text, place);
-  for (auto& [key, value] : spec.given) value.folder = folder.string();
+  for (auto& [key, value] : spec.given) {
+    value.folder = folder.string();
+    if (key == "path") require_regular_file((folder / value.text).string());
+  }
   Filter filter(spec);
   for (const Param& p : filter.info().params) {
     if (p.kind != Param::Kind::path) continue;
-    study_text += fmt::format("\n# {}\n{}", filter.args().text(p.name), read_text(filter.args().path(p.name)));
+    append_file(filter.args().text(p.name), read_named_file(filter.args().path(p.name), kMaxTomlBytes), place,
+                study_text);
   }
   return filter;
 }
 
-EstimatorChoice make_estimator(const std::string& text, const std::string& place) {
-  return {text, find_estimator(text, place)};
+// One estimator or form once, however it is written, and none that a layout of the study has no samples for.
+std::vector<EstimatorChoice> parse_estimators(const Node& node, const std::vector<Layout>& layouts) {
+  std::vector<EstimatorChoice> estimators;
+  for (const Node& item : list_of(node, "estimators", "[\"ratio\"]")) {
+    const Estimator estimator = find_estimator(text_of(item, "an entry of estimators"), item.place);
+    const bool is_new = std::none_of(estimators.begin(), estimators.end(),
+                                     [&](const EstimatorChoice& known) { return known.value == estimator; });
+    refuse_twice(item, fmt::format("\"{}\"", name_of(estimator)), is_new);
+    for (const Layout layout : layouts) require_layout(estimator, layout, item.place);
+    estimators.emplace_back(estimator);
+  }
+  return estimators;
 }
 
 // One layout, or a list of them.
@@ -164,12 +201,12 @@ std::vector<NamedScene> parse_scene_table(const Node& table, const std::string& 
   const std::filesystem::path full = std::filesystem::path(file).parent_path() / relative;
   const auto text = [&] {
     try {
-      return read_text(full.string());
+      return read_named_file(full.string(), kMaxTomlBytes);
     } catch (const Error& e) {
       throw Error(path->place, e.what(), e.code());
     }
   }();
-  study_text += fmt::format("\n# {}\n{}", relative, text);
+  append_file(relative, text, path->place, study_text);
   const Node scene = parse_toml(text, full.string());
   const Node* own = name != nullptr ? name : scene.find("name");
   return scenes_of(scene, own != nullptr ? name_of(*own, "name") : full.stem().string(), limit);
@@ -236,9 +273,9 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
     study.filters = {Filter(parse_spec("box", file))};
   }
   if (const Node* n = root.find("estimators")) {
-    study.estimators = specs_of<EstimatorChoice>(*n, "estimators", "[\"ratio\"]", make_estimator);
+    study.estimators = parse_estimators(*n, study.layouts);
   } else {
-    study.estimators = {make_estimator("ratio", file)};
+    study.estimators = {EstimatorChoice(Estimator::ratio)};
   }
   if (const Node* n = root.find("measures")) {
     parse_measures(*n, study);
@@ -247,6 +284,7 @@ Study parse_study(std::string_view text, const std::string& file, const std::str
   }
   if (const Node* n = root.find("spectrum")) study.spectrum = parse_spectrum(*n);
   if (const Node* n = root.find("images")) study.images = images_of(*n);
+  if (const Node* n = root.find("accuracy")) study.accuracy = accuracy_of(*n);
   parse_scenes(root, file, study);
   return study;
 }

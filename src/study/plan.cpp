@@ -95,7 +95,13 @@ std::vector<Case> plan(const Study& study) {
   require_spectra(study);
   for (const NamedScene& scene : study.scenes) {
     for (const Filter& filter : study.filters) {
-      for (const int n : study.spp) require_renderable(scene.image.grid(), filter, n, "scene \"" + scene.name + "\"");
+      for (const int n : study.spp) {
+        const auto require = [&](Estimator estimator) {
+          require_renderable(scene.image.grid(), filter, estimator, n, "scene \"" + scene.name + "\"");
+        };
+        for (const EstimatorChoice& estimator : study.estimators) require(estimator.value);
+        if (study.measures.has(Measure::flat_field)) require(Estimator::unnormalised);
+      }
     }
   }
   std::vector<Case> cases;

@@ -104,6 +104,9 @@ class Parser {
 
   void end_set() {
     if (!set_.x.empty()) sets_.push_back(std::move(set_));
+    if (sets_.size() > kMaxPointSets) {
+      throw Error(file_, fmt::format("has more sets than can be read; give {} at most", kMaxPointSets));
+    }
     set_ = {};
     had_header_ = false;
   }

@@ -16,6 +16,8 @@ struct PointSet {
 
 // Most points that all sets of an input may have together; an end to what never ends.
 inline constexpr std::size_t kMaxSetPoints = std::size_t{1} << 26;
+// Sets of a file: a set of one point takes a hundred times its memory.
+inline constexpr std::size_t kMaxPointSets = 1'000'000;
 
 // Sets of points, at least one, each with at least one point and all with the same number of coordinates; their sizes
 // may differ. `path` "-" is standard input. A line has a point: x,y or x,y,t, as many on all lines, with commas, blanks
@@ -24,7 +26,7 @@ inline constexpr std::size_t kMaxSetPoints = std::size_t{1} << 26;
 // count for nothing. Lines may end with CR LF, and a file may begin with the byte order mark of UTF-8. 10^7 points take
 // about 2 s.
 //
-// Throws Error at FILE:LINE:COLUMN for what is no point, at FILE for no points or more than kMaxSetPoints, and
+// Throws Error at FILE:LINE:COLUMN for what is no point, at FILE for no points or more than the limits above, and
 // (Exit::io) for a file that cannot be read.
 std::vector<PointSet> read_point_sets(const std::string& path);
 

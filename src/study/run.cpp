@@ -111,7 +111,7 @@ Batch make_batch(const Study& study, std::uint32_t first, const Schedule& schedu
                          !(observer.has_exact_image && observer.has_exact_image(batch.end, filter));
       if (!image && !schedule.needs_truth[batch.end * study.filters.size() + filter]) continue;
       if (observer.stop && observer.stop()) return batch;
-      Truth truth = find_truth(study.scenes[batch.end].image, study.filters[filter]);
+      Truth truth = find_truth(study.scenes[batch.end].image, study.filters[filter], study.accuracy);
       pixels += truth.rows.active_pixels();
       if (image) observer.exact_image(batch.end, filter, truth);
       batch.truths.emplace(std::pair(batch.end, filter), std::move(truth));

@@ -18,6 +18,7 @@ namespace moire {
 namespace {
 
 constexpr std::string_view kLineMark = ":line=";
+constexpr std::size_t kMaxNumbers = std::size_t{1} << 23;  // of all scenes of a table
 constexpr std::string_view kEdgeKind = "edge";
 
 // A key of a scene with its value, or with its values when it is a range.
@@ -299,6 +300,14 @@ std::vector<NamedScene> scenes_of(const Node& table, const std::string& name, st
       throw Error(table.place, fmt::format("the scene's ranges make more than {} scenes; give larger steps", limit));
     }
     total *= count_of(e);
+  }
+  // Each scene holds the numbers of all keys.
+  std::size_t numbers = 0;
+  for (const Entry& e : entries) numbers += std::max<std::size_t>(e.value.numbers.size(), 1);
+  if (numbers > kMaxNumbers / total) {
+    throw Error(table.place, fmt::format("the ranges make {} scenes of {} numbers each; at most {} together, so give "
+                                         "larger steps or shorter lists",
+                                         total, numbers, kMaxNumbers));
   }
   std::vector<NamedScene> scenes;
   for (std::size_t index = 0; index < total; ++index) {

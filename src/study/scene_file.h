@@ -33,7 +33,8 @@ std::string_view scene_family(std::string_view scene_name);
 std::int64_t line_number(std::string_view scene_name);
 
 // The scenes of one table of scene keys (kind, width, height and the kind's own; `name` is optional and must agree
-// with no other: the caller checks). More than `limit` scenes are refused. Throws Error with file:line:column.
+// with no other: the caller checks). More than `limit` scenes are refused, and ranges beside long lists that come to
+// more than 2^23 numbers in all scenes together. Throws Error with file:line:column.
 std::vector<NamedScene> scenes_of(const Node& table, const std::string& name, std::size_t limit);
 
 // A scene file, which describes one scene. `name` is used when the file gives none. Throws Error.

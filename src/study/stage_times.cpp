@@ -74,7 +74,7 @@ StageTimes time_stages(const TestImage& scene, Samples samples, const Filter& fi
   StageTimes times;
   RowSamples block;
   std::vector<std::uint8_t> inside;
-  CellSums sum(filter.kernel(), cells.reach());
+  CellSums sum(filter);
   const auto side = static_cast<std::size_t>(2 * cells.reach() + 1);
   std::vector<WeightSum> sums(side * side);
   OwnCount own;

@@ -20,16 +20,19 @@
 
 namespace moire {
 
-// Limits of a study. The scenes of all ranges; the rows of the plan, which are held in memory (a few kB each); and the
-// pixels of an image that is written to a file (it is then held densely in memory).
+// Limits of a study. The scenes of all ranges; the rows of the plan, which are held in memory (a few kB each); trials;
+// the study's text with those of the files that it names, which results.jsonl begins with; and the pixels of an image
+// that is written to a file (it is then held densely in memory). Lists have theirs in lists.h, files in text_file.h.
 inline constexpr std::size_t kMaxScenes = 100'000;
 inline constexpr std::size_t kMaxRows = 1'000'000;
 inline constexpr int kMaxTrials = 1'000'000;
+inline constexpr std::size_t kMaxStudyBytes = std::size_t{64} << 20;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 
 struct EstimatorChoice {
-  std::string text;
-  Estimator value = Estimator::ratio;
+  explicit EstimatorChoice(Estimator estimator) : text(name_of(estimator)), value(estimator) {}
+  std::string text;  // as rows and file names have it: one for each estimator and form
+  Estimator value;
 };
 
 // How spectra of errors are taken: a table [spectrum] of a study file.
@@ -62,6 +65,7 @@ struct Study {
   std::vector<DiscrepancyChoice> discrepancies;  // of the patterns' sets, beside the errors
   SpectrumSettings spectrum;
   Images images = Images::first_trial;
+  WeightAim accuracy;  // of the exact values
   std::vector<NamedScene> scenes;
   std::vector<SceneCases> scene_cases;  // of each scene; none at all: every scene with everything
 };

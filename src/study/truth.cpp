@@ -22,10 +22,10 @@ std::vector<std::uint8_t> horizon_pixels(const TestImage& scene, const Filter& f
 
 }  // namespace
 
-Truth find_truth(const TestImage& scene, const Filter& filter) {
+Truth find_truth(const TestImage& scene, const Filter& filter, const WeightAim& aim) {
   const Stopwatch time;
   ActiveRows rows = enumerate(scene, filter.radius());
-  Reference reference = exact(scene, filter, rows);
+  Reference reference = exact(scene, filter, rows, aim);
   std::vector<std::uint8_t> horizon = horizon_pixels(scene, filter, rows);
   return {std::move(rows), std::move(reference), std::move(horizon), time.nanoseconds()};
 }

@@ -18,6 +18,6 @@ struct Truth {
   std::int64_t time_ns = 0;           // wall time of both
 };
 
-Truth find_truth(const TestImage& scene, const Filter& filter);
+Truth find_truth(const TestImage& scene, const Filter& filter, const WeightAim& aim = {});
 
 }  // namespace moire

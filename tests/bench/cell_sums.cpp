@@ -23,7 +23,7 @@ void cell_sums(benchmark::State& state, const std::string& text) {
   const std::vector<std::uint8_t> inside(n, 1), needed(side * side, 1);
   std::vector<WeightSum> sums(side * side);
   OwnCount own;
-  CellSums sum(filter.kernel(), filter.apron());
+  CellSums sum(filter);
   std::size_t cell = 0;
   for (auto _ : state) {
     const std::span<const double> x(run.x.data() + cell * n, n), y(run.y.data() + cell * n, n);
@@ -38,6 +38,8 @@ BENCHMARK_CAPTURE(cell_sums, box, "box")->Arg(1)->Arg(16)->Arg(256);
 BENCHMARK_CAPTURE(cell_sums, tent, "tent")->Arg(1)->Arg(16)->Arg(256);
 BENCHMARK_CAPTURE(cell_sums, mitchell, "mitchell")->Arg(1)->Arg(16)->Arg(256);
 BENCHMARK_CAPTURE(cell_sums, lanczos, "lanczos")->Arg(1)->Arg(16)->Arg(256);
+BENCHMARK_CAPTURE(cell_sums, cone, "cone")->Arg(1)->Arg(16)->Arg(256);
+BENCHMARK_CAPTURE(cell_sums, jinc, "jinc")->Arg(1)->Arg(16)->Arg(256);
 
 }  // namespace
 }  // namespace moire

@@ -98,6 +98,15 @@ TEST_SUITE("cli") {
     check_refused({render({"--pattern", "random", "--spp", "4", "--filter", "tent:radius=-1"}), 2, {"radius"}});
     check_refused({render({"--pattern", "random", "--spp", "4", "--filter", "box:width=inf"}), 2, {"width"}});
     check_refused({render({"--pattern", "random", "--spp", "4", "--estimator", "rato"}), 2, {"did you mean ratio"}});
+    const auto estimate = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), {"--pattern", "random", "--spp", "4", "--estimator"});
+      return render(more);
+    };
+    check_refused({estimate({"importnce"}), 2, {"did you mean importance", "unnormalised, control-variate"}});
+    check_refused({estimate({"importance:form=sum"}), 2, {"form", "signed, ratio"}});
+    check_refused({estimate({"importance:from=ratio"}), 2, {"did you mean form"}});
+    check_refused({estimate({"ratio:form=ratio"}), 2, {"takes no parameters"}});
+    check_refused({estimate({"importance", "--layout", "image"}), 2, {"--estimator", "layout \"pixel\""}});
     check_refused({render({"--pattern", "random", "--spp", "4", "--seed", "-1"}), 2, {"--seed"}});
     check_refused({render({"--pattern", "random", "--spp", "4", "--seed", "9223372036854775808"}), 2, {"--seed"}});
     check_refused({render({"--pattern", "random", "--spp", "4", "--trial", "4294967296"}), 2, {"--trial"}});

@@ -315,6 +315,35 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("importance estimators: one name each, samples without an apron, the same image when exhaustive") {
+    const Folder folder;
+    const std::string scene = folder.write("edge.toml",
+                                           "kind = \"edge\"\nwidth = 32\nheight = 24\nthrough = [16, 12]\n"
+                                           "normal = 97.3\n");
+    const auto row_of = [&](std::vector<std::string> more) {
+      std::vector<std::string> words{"render", scene, "--pattern", "jittered", "--spp", "4", "--json", "--estimator"};
+      words.insert(words.end(), more.begin(), more.end());
+      const Outcome outcome = run_program(words);
+      CAPTURE(outcome.err);
+      REQUIRE(outcome.code == 0);
+      return nlohmann::json::parse(outcome.out);
+    };
+    CHECK(row_of({"importance", "--filter", "tent"})["estimator"] == "importance");
+    CHECK(row_of({"importance:form=signed", "--filter", "tent"})["estimator"] == "importance");
+    for (const char* filter : {"tent", "lanczos", "cone"}) {
+      for (const char* estimator : {"importance", "importance:form=ratio"}) {
+        const auto some = row_of({estimator, "--filter", filter});
+        const auto all = row_of({estimator, "--filter", filter, "--exhaustive"});
+        CHECK(some["estimator"] == estimator);
+        CHECK(some["samples_total"] == 32 * 24 * 4);
+        CHECK(all["samples_evaluated"] == 32 * 24 * 4);
+        CHECK(some["samples_evaluated"].get<int>() < 32 * 24 * 4);
+        CHECK(some["fallbacks"] == 0);
+        for (const char* name : {"rmse_active", "rmse_all", "max_abs_active"}) CHECK(some[name] == all[name]);
+      }
+    }
+  }
+
   TEST_CASE("the definition gives the doubles stored: a normal of 90 degrees is exactly (0, 1)") {
     const Folder folder;
     const std::string edge =

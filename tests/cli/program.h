@@ -26,9 +26,10 @@ struct Outcome {
 };
 
 // Starts the program, calls `meanwhile` about 50 times a second with its process number, and waits for its end, at most
-// `seconds`. Standard input is /dev/null; `out_path`, when given, takes standard output.
+// `seconds`. Standard input is /dev/null; `out_path`, when given, takes standard output. `before`, when given, runs in
+// the new process before it becomes the program, and may set its limits.
 inline Outcome run_program(const std::vector<std::string>& args, const std::string& out_path = "", int seconds = 120,
-                           const std::function<void(pid_t)>& meanwhile = {}) {
+                           const std::function<void(pid_t)>& meanwhile = {}, const std::function<void()>& before = {}) {
   int out_pipe[2], err_pipe[2];
   if (::pipe(out_pipe) != 0 || ::pipe(err_pipe) != 0) throw std::runtime_error("pipe");
   std::vector<std::string> words = {MOIRE_PROGRAM};
@@ -37,21 +38,22 @@ inline Outcome run_program(const std::vector<std::string>& args, const std::stri
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   // Signals must not meet the test program's handlers in the child: they wait until it has none.
-  sigset_t all, before;
+  sigset_t all, unblocked;
   sigfillset(&all);
-  ::sigprocmask(SIG_SETMASK, &all, &before);
+  ::sigprocmask(SIG_SETMASK, &all, &unblocked);
   const pid_t child = ::fork();
-  if (child != 0) ::sigprocmask(SIG_SETMASK, &before, nullptr);
+  if (child != 0) ::sigprocmask(SIG_SETMASK, &unblocked, nullptr);
   if (child < 0) throw std::runtime_error("fork");
   if (child == 0) {
     for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
-    ::sigprocmask(SIG_SETMASK, &before, nullptr);
+    ::sigprocmask(SIG_SETMASK, &unblocked, nullptr);
     const int null = ::open("/dev/null", O_RDONLY);
     const int out = out_path.empty() ? out_pipe[1] : ::open(out_path.c_str(), O_WRONLY);
     ::dup2(null, 0);
     ::dup2(out, 1);
     ::dup2(err_pipe[1], 2);
     for (const int end : {out_pipe[0], out_pipe[1], err_pipe[0], err_pipe[1]}) ::close(end);
+    if (before) before();
     ::execv(argv[0], argv.data());
     ::_exit(99);
   }

@@ -134,7 +134,7 @@ TEST_SUITE("unit") {
   TEST_CASE("the samples of crossed cells suffice: every pixel of hard scenes has the count of all its samples") {
     const Scenes scenes = hard_scenes();
     for (const PatternChoice& choice : patterns_with_cells()) {
-      for (const int wanted : {64, 144, 256, 1024}) {
+      for (const int wanted : {100, 144, 256, 1024, 2304}) {
         const Pattern pattern(choice, choice.info().counts(choice.args(), wanted).above, {7, 3});
         for (const auto& named : scenes) {
           const std::string& name = named.first;
@@ -155,16 +155,16 @@ TEST_SUITE("unit") {
     // their sides; and one row and one column of a shifted grid are tested besides.
     for (const PatternChoice& choice : patterns_with_cells()) {
       if (choice.text().find("oblong") != std::string::npos) continue;
-      for (const int n : {256, 4096}) {
+      for (const int n : {1024, 4096}) {
         const Pattern pattern(choice, n, {7, 3});
-        const int side = n == 256 ? 16 : 64;
+        const int side = n == 1024 ? 32 : 64;
         for (const double angle : {0.0, 17.3, 45.0, 97.3, 200.0}) {
           const TestImage scene = scenes::edge({4.3, 4.1}, angle, {8, 8});
           BoxCounter counter(scene, pattern);
           REQUIRE(counter.has_cells());
           for (int i = 0; i < 64; ++i) {
             const CellGrid cells = pattern.cells({i % 8, i / 8});
-            // Two points of a low-discrepancy set may share a cell: at most four.
+            // Two points of a low-discrepancy set or of darts may share a cell: at most four.
             const int each = choice.info().name.substr(0, 8) == "jittered" ? 1 : 4;
             const int most = each * ((2 * side + 2) + (cells.right > 0 ? 2 * side : 0));
             CHECK(counter.test_crossed({i % 8, i / 8}).tested <= most);

@@ -38,7 +38,7 @@ inline std::vector<std::pair<std::string, TestImage>> scene_catalogue(Grid grid 
 
 inline std::vector<Filter> filter_catalogue() {
   std::vector<Filter> all;
-  for (const std::string& text : filter_texts()) all.emplace_back(parse_spec(text, "test"));
+  for (const std::string& text : separable_texts()) all.emplace_back(parse_spec(text, "test"));
   return all;
 }
 

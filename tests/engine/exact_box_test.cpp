@@ -36,7 +36,7 @@ class BoxComparison {
     const Kernel& kernel = filter_.kernel();
     BoundaryIntegral integral(kernel);
     for (const Segment& s : boundary.segments) integral.add(s);
-    const double general = integral.bound() + boundary.area_error * kernel.k_max() * kernel.k_max();
+    const double general = integral.bound() + boundary.area_doubt() * kernel.k_max() * kernel.k_max();
     // 4 u for the quotient and for the area here.
     const double difference = std::fabs(quick->value / area - integral.value());
     CHECK(difference <= quick->bound / area + general + 4 * 0x1p-53);

@@ -19,7 +19,7 @@ namespace moire {
 
 // All but the plain box, which has a test and a tolerance of its own.
 inline std::vector<std::string> wide_filters() {
-  std::vector<std::string> texts = test::filter_texts();
+  std::vector<std::string> texts = test::separable_texts();
   texts.erase(std::remove(texts.begin(), texts.end(), "box"), texts.end());
   return texts;
 }

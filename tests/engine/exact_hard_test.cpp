@@ -19,7 +19,7 @@ double tolerance(const std::string& filter) { return filter == "box" ? kBoxToler
 // form, takes them all.
 void compare_share(const std::vector<RandomCase>& cases, std::size_t n) {
   std::size_t first = 0;
-  for (const std::string& filter : test::filter_texts()) {
+  for (const std::string& filter : test::separable_texts()) {
     ExactComparison compare(filter, tolerance(filter));
     const std::size_t step = filter == "box" ? 1 : n;
     for (std::size_t i = first++ % step; i < cases.size(); i += step) compare(cases[i].image, cases[i].pixel);
@@ -128,7 +128,7 @@ std::vector<RandomCase> boards_underfoot() {
 // Of each filter, with its knots in pixels from the centre of pixel (7, 7), at (7.5, 7.5).
 template <class Cases>
 void compare_at_knots(const Cases& cases) {
-  for (const std::string& text : test::filter_texts()) {
+  for (const std::string& text : test::separable_texts()) {
     ExactComparison compare(text, tolerance(text));
     const Filter filter(parse_spec(text, "test"));
     const std::span<const double> knots = filter.kernel().knots();
@@ -202,7 +202,7 @@ TEST_SUITE("heavy") {
     ExactComparison box("box", kBoxTolerance);
     box(scenes::disk({7.1491872450782825, 7.8508127549217139}, kSmall), kPixel);
     Draw draw(41);
-    for (const std::string& text : test::filter_texts()) {
+    for (const std::string& text : test::separable_texts()) {
       ExactComparison compare(text, tolerance(text));
       const Filter filter(parse_spec(text, "test"));
       const std::span<const double> knots = filter.kernel().knots();

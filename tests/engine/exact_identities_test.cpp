@@ -107,7 +107,7 @@ TEST_SUITE("unit") {
   TEST_CASE("the pixels of a disk sum to its area for filters that are partitions of unity, radius 0.1 to 300") {
     std::vector<std::string> met;
     for (const Filter& filter : every_filter()) {
-      if (ripple(filter.kernel()) > 1e-14) continue;
+      if (filter.is_radial() || ripple(filter.kernel()) > 1e-14) continue;
       met.push_back(filter.text());
       CAPTURE(filter.text());
       for (const double radius : {0.1, 0.25, 0.31, 0.5, 1.0, 3.3, 17.7, 100.0, 300.0})
@@ -124,7 +124,7 @@ TEST_SUITE("unit") {
 
   TEST_CASE("the pixels of a small disk sum to its area, radius 1e-6 to 0.1") {
     for (const Filter& filter : every_filter()) {
-      if (ripple(filter.kernel()) > 1e-14) continue;
+      if (filter.is_radial() || ripple(filter.kernel()) > 1e-14) continue;
       CAPTURE(filter.text());
       for (const double radius : {1e-6, 3e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.03, 0.0999})
         for (const Vec2 offset : kOffsets) {

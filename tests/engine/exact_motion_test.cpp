@@ -294,7 +294,7 @@ TEST_SUITE("unit") {
 
 TEST_SUITE("heavy") {
   TEST_CASE("moving edges and disks against the still engine over time, under every filter") {
-    for (const std::string& text : test::filter_texts()) compare(text, 60, 81);
+    for (const std::string& text : test::separable_texts()) compare(text, 60, 81);
   }
 }
 

@@ -16,10 +16,11 @@ using namespace moire;
 
 namespace {
 
-// Each filter with its defaults, with each of its choices and with each number at either end; and some between.
+// Each separable filter with its defaults, with each of its choices and with each number at either end; and some between.
 std::vector<Filter> catalogue() {
-  std::vector<std::string> texts = test::filter_texts();
+  std::vector<std::string> texts = test::separable_texts();
   for (const FilterInfo* info : filters()) {
+    if (info->symmetry() == Symmetry::radial) continue;
     if (std::any_of(info->params.begin(), info->params.end(), [](const Param& p) { return p.required; })) continue;
     for (const Param& p : info->params) {
       if (p.kind != Param::Kind::number && p.kind != Param::Kind::integer) continue;

@@ -14,7 +14,7 @@ namespace moire {
 
 TEST_SUITE("unit") {
   TEST_CASE("bounds on k, K and the slope hold on every piece and are tight") {
-    for (const std::string& text : test::filter_texts()) {
+    for (const std::string& text : test::separable_texts()) {
       CAPTURE(text);
       const Filter filter(parse_spec(text, "test"));
       const Kernel& kernel = filter.kernel();
@@ -56,7 +56,7 @@ TEST_SUITE("unit") {
       table.precision(17);
       for (int i = 0; i < 1000; ++i) table << i / 250.0 << ',' << std::cos(0.003 * i) << '\n';
     }
-    std::vector<std::string> texts = test::filter_texts();
+    std::vector<std::string> texts = test::separable_texts();
     for (const char* between : {"linear", "cubic"}) {
       texts.push_back("tabulated:path=" + folder.file("long.csv") + ",between=" + between);
     }
@@ -78,7 +78,7 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("many points at once have the same bits as one by one") {
-    for (const std::string& text : test::filter_texts()) {
+    for (const std::string& text : test::separable_texts()) {
       CAPTURE(text);
       const Filter filter(parse_spec(text, "test"));
       const Kernel& kernel = filter.kernel();

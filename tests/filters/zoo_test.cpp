@@ -248,7 +248,7 @@ TEST_SUITE("unit") {
         ++refused;
       }
     }
-    CHECK(refused == 9);
+    CHECK(refused == 14);
   }
 
   TEST_CASE("a stretched kernel is the kernel of a stretched distance") {

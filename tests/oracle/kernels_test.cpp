@@ -1,11 +1,13 @@
 // The program's kernels against the oracle's, which share no code: closed forms against Chebyshev series.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "filter_list.h"
 #include "oracle/kernel.h"
+#include "oracle/rings.h"
 
 namespace moire {
 namespace {
@@ -35,11 +37,56 @@ void compare(const std::string& text) {
   CHECK(product.K(r) == 1);
 }
 
+// k, q and G of a radial filter at 400 distances, each within the error that the program states.
+void compare_radial(const std::string& text) {
+  CAPTURE(text);
+  const Filter filter(parse_spec(text, "test"));
+  const RadialKernel& product = filter.radial_kernel();
+  const oracle::RingKernel truth(text);
+  REQUIRE(product.radius() == static_cast<double>(truth.radius()));
+  const double r = product.radius();
+  const auto k_error = static_cast<long double>(product.k_error()),
+             q_error = static_cast<long double>(product.q_error()),
+             G_error = static_cast<long double>(product.G_error());
+  for (int i = 0; i < 400; ++i) {
+    const double x = i < 340 ? r * i / 340 : r * std::pow(0.5, i - 339);
+    CAPTURE(x);
+    const auto at = static_cast<long double>(x);
+    const long double right = std::nextafter(at, 99.0L), moment = truth.moment(at);
+    // The oracle's own digits: a few of its 64 bits.
+    const long double rounding = 0x1p-60L * static_cast<long double>(product.k_max());
+    CHECK(std::fabs(static_cast<long double>(product.k(x)) - truth(right)) <= k_error + rounding);
+    CHECK(std::fabs(static_cast<long double>(product.G(x)) - moment) <= G_error + rounding);
+    const auto q = static_cast<long double>(product.q(x));
+    CHECK(std::fabs(q - (x > 0 ? moment / (at * at) : truth(0) / 2)) <= q_error + rounding);
+  }
+  CHECK(product.k(r) == 0);
+  CHECK(product.G(r) == RadialKernel::kWhole);
+  CHECK(product.q(2 * r) == doctest::Approx(RadialKernel::kWhole / (4 * r * r)).epsilon(1e-15));
+  CHECK(product.k_error() < 1e-14 * std::max(1.0, product.k_max()));
+  CHECK(product.q_error() < 1e-14 * std::max(1.0, product.k_max()));
+}
+
 }  // namespace
 
 TEST_SUITE("unit") {
+  TEST_CASE("k, q and G of every radial filter are within their stated errors of the oracle's quadrature") {
+    for (const std::string& text : test::radial_texts()) compare_radial(text);
+  }
+
+  TEST_CASE("k, q and G are within their stated errors at the ends of every radial parameter's range") {
+    for (const char* text :
+         {"disk:radius=0.0625", "disk:radius=16", "cone:radius=0.0625", "cone:radius=16",
+          "radial-gaussian:sigma=16,radius=0.0625", "radial-gaussian:sigma=16", "radial-gaussian:sigma=0.05",
+          "radial-gaussian:sigma=1,radius=16", "radial-bc:b=8,c=8", "radial-bc:radius=0.125", "radial-bc:radius=16",
+          "radial-lanczos:a=16", "radial-blackman-harris:width=0.125", "radial-blackman-harris:width=32",
+          "jinc:lobes=16", "jinc:blur=0.5", "jinc:blur=2,lobes=16"}) {
+      compare_radial(text);
+    }
+  }
+
   TEST_CASE("k and K of every filter are within their stated errors of the oracle's quadrature") {
-    for (const std::string& text : test::filter_texts()) {
+    for (const std::string& text : test::separable_texts()) {
       compare(text);
       CAPTURE(text);
       const Filter filter(parse_spec(text, "test"));

@@ -49,7 +49,7 @@ int repeats(const std::string& text) { return half_kernel(parse_spec(text, "test
 
 TEST_SUITE("unit") {
   TEST_CASE("kernels are normalised and the Gaussian's mass is that of the error function") {
-    for (const std::string& name : test::filter_texts()) {
+    for (const std::string& name : test::separable_texts()) {
       const Kernel k(name);
       CAPTURE(std::string(name));
       CHECK(std::fabs(k.over(-k.radius(), k.radius()) - 1) < 1e-18L);
@@ -82,7 +82,7 @@ TEST_SUITE("unit") {
 
   TEST_CASE("iterated quadrature agrees with quadrature along rays, every filter") {
     Random random(2);
-    for (const std::string& name : test::filter_texts()) {
+    for (const std::string& name : test::separable_texts()) {
       const Kernel k(name);
       CAPTURE(std::string(name));
       const double reach = static_cast<double>(k.radius());
@@ -97,7 +97,7 @@ TEST_SUITE("unit") {
 
   TEST_CASE("sections along rows and along columns give the same board, and its squares make the whole") {
     Random random(5);
-    for (const std::string& name : test::filter_texts()) {
+    for (const std::string& name : test::separable_texts()) {
       const Kernel k(name);
       CAPTURE(std::string(name));
       for (int i = 0; i < repeats(name); ++i) {
@@ -121,7 +121,7 @@ TEST_SUITE("unit") {
   TEST_CASE("moving scene and pixel together by 2^40 pixels changes nothing") {
     const double far = 0x1p40;
     const auto base = static_cast<std::int64_t>(far);
-    for (const std::string& name : test::filter_texts()) {
+    for (const std::string& name : test::separable_texts()) {
       const Kernel k(name);
       CAPTURE(std::string(name));
       for (const double x : {0.25, 0.5, 0.75}) {
@@ -135,7 +135,7 @@ TEST_SUITE("unit") {
 
   TEST_CASE("the stated errors are below 1e-17") {
     Random random(3);
-    for (const std::string& name : test::filter_texts()) {
+    for (const std::string& name : test::separable_texts()) {
       const Kernel k(name);
       CAPTURE(std::string(name));
       const double reach = static_cast<double>(k.radius());

@@ -39,6 +39,19 @@ TEST_SUITE("io") {
     CHECK(wrapped("", 10).empty());
   }
 
+  TEST_CASE("a radial filter has the same columns as a separable one, and their meanings say what is of the plane") {
+    const auto lines = filter_cells(filter_table(std::vector<Filter>{Filter(parse_spec("disk", "test"))}));
+    // Radius 1/2: integral pi / 4 before normalising, noise gain 4 / pi, variance R^2 / 4.
+    const std::vector<std::string> wanted = {"disk", "0.5", "0.7854", "1", "0.0625"};
+    REQUIRE(lines.size() == 2);
+    for (std::size_t i = 0; i < wanted.size(); ++i) CHECK(lines[1][i] == wanted[i]);
+    for (const std::string& cell : lines[1]) CHECK(cell != "-");
+    for (const ColumnMeaning& column : filter_columns()) {
+      const bool differs = column.head == "I" || column.head == "ripple" || column.head == "L1" || column.head == "E";
+      if (differs) CHECK(column.meaning.find("radial") != std::string::npos);
+    }
+  }
+
   TEST_CASE("every column of the filters' table has a cell per filter and a meaning") {
     const std::vector<Filter> filters = {Filter(parse_spec("mitchell", "test")),
                                          Filter(parse_spec("gaussian:sigma=0.4", "test"))};

@@ -117,7 +117,7 @@ TEST_SUITE("unit") {
     for (const std::string& text : filter_variants()) {
       CAPTURE(text);
       const Filter filter(parse_spec(text, "test"));
-      if (filter.kernel().is_unit_box()) continue;
+      if (!filter.is_radial() && filter.kernel().is_unit_box()) continue;
       const Truth truth = find_truth(scene, filter);
       const double change = coverage_errors(truth.rows, exact_image(truth), box).all.rmse;
       // The disk's border is 58 pixels of 896; a kernel as wide as this image's disk changes no pixel by more than 1,
@@ -127,8 +127,8 @@ TEST_SUITE("unit") {
     }
   }
 
-  TEST_CASE("the flat field of independent samples is as noisy as theory says, for every filter") {
-    for (const std::string& text : filter_variants()) {
+  TEST_CASE("the flat field of independent samples is as noisy as theory says, for every separable filter") {
+    for (const std::string& text : filter_variants(Symmetry::separable)) {
       CAPTURE(text);
       const Filter filter(parse_spec(text, "test"));
       const Kernel& k = filter.kernel();

@@ -145,6 +145,13 @@ TEST_SUITE("unit") {
     CHECK(refusal(std::string("0.1,0.2\n\0,1\n", 12)) != "");
   }
 
+  TEST_CASE("more sets than the limit are refused: of one point each they would take ten gigabytes in a large file") {
+    std::string text;
+    for (std::size_t i = 0; i <= kMaxPointSets; ++i) text += "0,0\n#\n";
+    CHECK(refusal(text) == "p.txt: has more sets than can be read; give 1000000 at most");
+    CHECK(parse(text.substr(0, 6 * kMaxPointSets)).size() == kMaxPointSets);
+  }
+
   TEST_CASE("how the bytes arrive makes no difference") {
     std::string text = "# first\nx,y\n";
     for (int i = 0; i < 300; ++i)

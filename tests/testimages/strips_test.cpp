@@ -177,4 +177,46 @@ TEST_SUITE("unit") {
       }
     }
   }
+
+  TEST_CASE("points of a board are marked alike by every instruction set, and as one by one") {
+    // A quarter of the points behind the camera, some near lines, and W = 0 at x = 0.25.
+    std::mt19937_64 random(5);
+    const auto unit = [](std::mt19937_64& r) { return static_cast<double>(r() >> 11) * 0x1p-53; };
+    std::vector<double> x(299), y(299);
+    for (double& v : x) v = unit(random);
+    for (double& v : y) v = unit(random);
+    for (std::size_t i = 0; i < x.size(); i += 7) x[i] = 0.25;
+    for (std::size_t i = 3; i < y.size(); i += 7) y[i] = std::floor(8 * y[i]) / 8;
+    for (const double error : {0x1p-60, 1e-3, 10.0}) {
+      for (const double extent : {HUGE_VAL, 3.0}) {
+        const BoardSign board{
+            {2.5, 7, -3, error}, {0, 8, 0, error}, {4, 0, -1, error}, -extent, extent, -extent, extent};
+        std::vector<std::uint8_t> expected(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          const auto at = [&](const BoardSign::Row& r) { return r.a * x[i] + r.b * y[i] + r.c; };
+          const double w = at(board.w), r = 1 / w, u = at(board.u) * r, v = at(board.v) * r;
+          const auto clear = [&](double q) {
+            const double doubt = quotient_error(q, error, error, r), part = q - std::floor(q);
+            return part > doubt && 1 - part > doubt && q > -extent + doubt && q < extent - doubt;
+          };
+          if (w < -error) continue;
+          const bool even = std::fmod(std::floor(u) + std::floor(v), 2) == 0;
+          expected[i] = w > 4 * error && clear(u) && clear(v) ? even : kDoubtful;
+        }
+        for (const std::size_t n : {0u, 1u, 3u, 7u, 8u, 15u, 16u, 17u, 63u, 64u, 65u, 299u}) {
+          const bool doubtful = std::find(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(n),
+                                          kDoubtful) != expected.begin() + static_cast<std::ptrdiff_t>(n);
+          for (const SignLoops& loops : sign_loops()) {
+            std::vector<std::uint8_t> inside(n + 1, 7);
+            CHECK(loops.mark_squares(board, {x.data(), n}, {y.data(), n}, inside.data()) == doubtful);
+            CHECK(std::equal(inside.begin(), inside.end() - 1, expected.begin()));
+            CHECK(inside[n] == 7);
+          }
+        }
+        // With an error of 10 nothing is clear.
+        CHECK((std::count(expected.begin(), expected.end(), std::uint8_t{0}) > 0) == (error < 10));
+        CHECK(std::count(expected.begin(), expected.end(), kDoubtful) > 0);
+      }
+    }
+  }
 }

@@ -16,13 +16,13 @@ namespace {
 Dd mean_overlap(const PointView& points, const DiskOverlap& overlap, double radius) {
   const double scale = 1 / (4 * radius * radius);
   const DiskTerms terms = (radius <= 0.25 ? disk_terms_of_one_image() : disk_terms()).back();
-  const Dd sum = sum_over_pairs(points, [&](PairBlock rows, PairBlock columns) {
-    return sum_of_lanes([&](double row_x, double row_y, const double* x, const double* y,
-                            double* value) { terms(overlap, scale, row_x, row_y, x, y, value); },
-                        rows, columns);
+  const Dd all = sum_over_pairs(points, [&](PairBlock rows, PairBlock columns) {
+    return sum_of_rows([&](double row_x, double row_y, std::span<const double> x, std::span<const double> y,
+                           PairRow& sum) { terms(overlap, scale, row_x, row_y, x, y, sum); },
+                       rows, columns);
   });
   const Dd n = dd_from_integer(static_cast<std::int64_t>(points.size()));
-  return sum / n / n;
+  return all / n / n;
 }
 
 }  // namespace

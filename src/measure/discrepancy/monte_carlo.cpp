@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "core/instruction_sets.h"
 #include "core/parallel.h"
 #include "measure/discrepancy/test_lines.h"
 
@@ -63,56 +66,116 @@ Uniforms uniforms(const Key& key, std::uint64_t index, Axis axis) {
   return {unit(r.a, r.b), unit(r.c, r.d), unit(s.a, s.b), unit(s.c, s.d)};
 }
 
-// Share of the N points that are counted and inside.
-template <class Inside>
-double share(const PointView& points, Counted counted, const Inside& inside) {
+// The tests, as what is inside of them; t of points in the plane is not looked at.
+struct Box2 {
+  double x, y;
+  [[gnu::always_inline]] bool operator()(double px, double py, double) const { return (px < x) & (py < y); }
+};
+
+struct Box3 {
+  double x, y, t;
+  [[gnu::always_inline]] bool operator()(double px, double py, double pt) const {
+    return (px < x) & (py < y) & (pt < t);
+  }
+};
+
+struct HalfPlane {
+  TestLine line;
+  [[gnu::always_inline]] bool operator()(double px, double py, double) const {
+    return line.nx * px + line.ny * py >= line.c;
+  }
+};
+
+struct Disk {
+  double x, y, square;
+  [[gnu::always_inline]] bool operator()(double px, double py, double) const {
+    const double dx = std::fabs(px - x), dy = std::fabs(py - y), other_x = 1 - dx, other_y = 1 - dy;
+    // To the nearest image; of radius 1/2 at most, the disk meets no other.
+    const double to_x = dx < other_x ? dx : other_x, to_y = dy < other_y ? dy : other_y;
+    return to_x * to_x + to_y * to_y <= square;
+  }
+};
+
+// Points from `first` on that are inside. Without branches, so that compilers vectorise it.
+template <class Region>
+[[gnu::always_inline]] inline std::int64_t count_loop(const PointView& points, std::size_t first, const Region& of) {
+  const Region region = of;
+  const double *const x = points.x.data(), *const y = points.y.data(), *const t = points.t.data();
   const std::size_t n = points.size();
-  // Without branches, so that compilers vectorise it.
   std::int64_t count = 0;
-  for (std::size_t i = counted == Counted::all ? 0 : 1; i < n; ++i) count += inside(i) ? 1 : 0;
-  return static_cast<double>(count) / static_cast<double>(n);
+  if constexpr (std::is_same_v<Region, Box3>) {
+    for (std::size_t i = first; i < n; ++i) count += region(x[i], y[i], t[i]) ? 1 : 0;
+  } else {
+    for (std::size_t i = first; i < n; ++i) count += region(x[i], y[i], 0) ? 1 : 0;
+  }
+  return count;
+}
+
+template <class Region>
+using Count = std::int64_t (*)(const PointView& points, std::size_t first, const Region& region);
+
+template <class Region>
+std::int64_t count_plain(const PointView& points, std::size_t first, const Region& region) {
+  return count_loop(points, first, region);
+}
+#if MOIRE_HAS_AVX
+template <class Region>
+[[MOIRE_AVX2]] std::int64_t count_avx2(const PointView& points, std::size_t first, const Region& region) {
+  return count_loop(points, first, region);
+}
+template <class Region>
+[[MOIRE_AVX512]] std::int64_t count_avx512(const PointView& points, std::size_t first, const Region& region) {
+  return count_loop(points, first, region);
+}
+template <class Region>
+constexpr Count<Region> kCounts[] = {count_plain<Region>, count_avx2<Region>, count_avx512<Region>};
+#else
+template <class Region>
+constexpr Count<Region> kCounts[] = {count_plain<Region>};
+#endif
+
+// The estimate from tests whose regions, of the areas (or volumes) given, are those of the indices.
+template <class Region, class Test>
+MonteCarlo run_tests(const PointView& points, std::int64_t tests, Counted counted, const Test& test) {
+  const Count<Region> count = kCounts<Region>[usable_sets() - 1];
+  const std::size_t first = counted == Counted::all ? 0 : 1;
+  const auto n = static_cast<double>(points.size());
+  return run(tests, [&](std::uint64_t index) {
+    const std::pair<Region, double> region_and_area = test(index);
+    const std::int64_t inside = count(points, first, region_and_area.first);
+    return static_cast<double>(inside) / n - region_and_area.second;
+  });
 }
 
 }  // namespace
 
 MonteCarlo star_l2_monte_carlo(const PointView& points, std::int64_t tests, const Key& key, Counted counted) {
-  const double *const x = points.x.data(), *const y = points.y.data(), *const t = points.t.data();
   if (points.dims() == 2) {
-    return run(tests, [&](std::uint64_t index) {
+    return run_tests<Box2>(points, tests, counted, [&](std::uint64_t index) {
       const Uniforms u = uniforms(key, index, Axis::test_box);
-      return share(points, counted, [=](std::size_t i) { return (x[i] < u.a) & (y[i] < u.b); }) - u.a * u.b;
+      return std::pair(Box2{u.a, u.b}, u.a * u.b);
     });
   }
-  return run(tests, [&](std::uint64_t index) {
+  return run_tests<Box3>(points, tests, counted, [&](std::uint64_t index) {
     const Uniforms u = uniforms(key, index, Axis::test_box);
-    const auto inside = [=](std::size_t i) { return (x[i] < u.a) & (y[i] < u.b) & (t[i] < u.c); };
-    return share(points, counted, inside) - u.a * u.b * u.c;
+    return std::pair(Box3{u.a, u.b, u.c}, u.a * u.b * u.c);
   });
 }
 
 MonteCarlo edge_l2_monte_carlo(const PointView& points, LineLaw law, std::int64_t tests, const Key& key,
                                Counted counted) {
-  const double *const x = points.x.data(), *const y = points.y.data();
-  return run(tests, [&](std::uint64_t index) {
+  return run_tests<HalfPlane>(points, tests, counted, [&](std::uint64_t index) {
     const TestLine line = test_line(law, key, index);
-    const auto inside = [=](std::size_t i) { return line.nx * x[i] + line.ny * y[i] >= line.c; };
-    return share(points, counted, inside) - area_above(line);
+    return std::pair(HalfPlane{line}, area_above(line));
   });
 }
 
 MonteCarlo disk_l2_monte_carlo(const PointView& points, std::optional<double> radius, std::int64_t tests,
                                const Key& key, Counted counted) {
-  const double *const x = points.x.data(), *const y = points.y.data();
-  return run(tests, [&](std::uint64_t index) {
+  return run_tests<Disk>(points, tests, counted, [&](std::uint64_t index) {
     const Uniforms u = uniforms(key, index, Axis::test_disk);
     const double square = radius ? *radius * *radius : u.c * u.c / 4;
-    const auto inside = [=](std::size_t i) {
-      const double dx = std::fabs(x[i] - u.a), dy = std::fabs(y[i] - u.b);
-      // To the nearest image; of radius 1/2 at most, the disk meets no other.
-      const double to_x = std::min(dx, 1 - dx), to_y = std::min(dy, 1 - dy);
-      return to_x * to_x + to_y * to_y <= square;
-    };
-    return share(points, counted, inside) - std::numbers::pi * square;
+    return std::pair(Disk{u.a, u.b, square}, std::numbers::pi * square);
   });
 }
 

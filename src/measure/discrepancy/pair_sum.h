@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -22,70 +23,67 @@ struct PairBlock {
 // terms: for terms >= 0 its relative error is below 15 u.
 inline constexpr std::size_t kPairBlock = 128, kPairLanes = 8;
 
-// Rows of lanes are added into high + low: the error of each lane stays below 2^-98 of it.
-[[gnu::always_inline]] inline void add_row(const double* sum, double* high, double* low) {
-  for (std::size_t lane = 0; lane < kPairLanes; ++lane) {
-    const Dd s = two_sum(high[lane], sum[lane]);
-    high[lane] = s.hi;
-    low[lane] += s.lo;
-  }
+// One number per lane, in as many registers as it takes: compilers would add single numbers.
+using PairRow [[gnu::vector_size(kPairLanes * sizeof(double))]] = double;
+
+// Rows of lanes are added into high + low, by two_sum: the error of each lane stays below 2^-98 of it. By reference:
+// passed by value, vectors would have another calling convention on every instruction set.
+[[gnu::always_inline]] inline void add_row(const PairRow& row, PairRow& high, PairRow& low) {
+  const PairRow sum = high + row, of_row = sum - high;
+  low += (high - (sum - of_row)) + (row - of_row);
+  high = sum;
 }
-[[gnu::always_inline]] inline Dd sum_of_rows(const double* high, const double* low) {
+[[gnu::always_inline]] inline Dd sum_of_lanes(const PairRow& high, const PairRow& low) {
   Dd total;
   for (std::size_t lane = 0; lane < kPairLanes; ++lane) total = total + quick_two_sum(high[lane], low[lane]);
   return total;
 }
 
-// The sum of term(x_i - x_j, y_i - y_j) over all i of `rows` and j of `columns`. Column j belongs to lane j mod
-// kPairLanes; per row every lane is summed plainly, rows and lanes are added with a relative error of 2^-98.
-// Inlined always, so that it takes the instruction set of its caller.
-template <class Term>
-[[gnu::always_inline]] inline Dd sum_of_tile(const Term& term, PairBlock rows, PairBlock columns) {
-  const double *const x = columns.x.data(), *const y = columns.y.data();
-  const std::size_t full = columns.x.size() / kPairLanes * kPairLanes, rest = columns.x.size() - full;
-  double high[kPairLanes] = {}, low[kPairLanes] = {};
-  for (std::size_t i = 0; i < rows.x.size(); ++i) {
-    const double row_x = rows.x[i], row_y = rows.y[i];
-    double sum[kPairLanes] = {};
-    for (std::size_t j = 0; j < full; j += kPairLanes) {
-      double value[kPairLanes];  // two loops, or clang vectorises neither
-      for (std::size_t lane = 0; lane < kPairLanes; ++lane)
-        value[lane] = term(row_x - x[j + lane], row_y - y[j + lane]);
-      for (std::size_t lane = 0; lane < kPairLanes; ++lane) sum[lane] += value[lane];
-    }
-    for (std::size_t lane = 0; lane < rest; ++lane) sum[lane] += term(row_x - x[full + lane], row_y - y[full + lane]);
-    add_row(sum, high, low);
-  }
-  return sum_of_rows(high, low);
-}
-
-// The same where terms(row_x, row_y, x, y, value) writes the kPairLanes values of a row and as many columns.
-template <class Terms>
-[[gnu::always_inline]] inline Dd sum_of_lanes(const Terms& terms, PairBlock rows, PairBlock columns) {
-  const double *const x = columns.x.data(), *const y = columns.y.data();
-  const std::size_t full = columns.x.size() / kPairLanes * kPairLanes, rest = columns.x.size() - full;
-  // Lanes without a column repeat the last one, and are not added.
+// The columns of a tile: those that fill rows of lanes, and a last row of what is left. Its lanes without a column
+// repeat the last one, and their weight is 0 where it is 1 elsewhere. Were the columns that are left added one by one,
+// compilers would keep the lanes of a sum as single numbers all along.
+struct PaddedColumns {
+  const double *x, *y;
+  std::size_t full, rest;
   double last_x[kPairLanes] = {}, last_y[kPairLanes] = {};
-  for (std::size_t lane = 0; rest > 0 && lane < kPairLanes; ++lane) {
-    last_x[lane] = x[full + std::min(lane, rest - 1)];
-    last_y[lane] = y[full + std::min(lane, rest - 1)];
-  }
-  double high[kPairLanes] = {}, low[kPairLanes] = {};
-  for (std::size_t i = 0; i < rows.x.size(); ++i) {
-    double sum[kPairLanes] = {}, value[kPairLanes];
-    for (std::size_t j = 0; j < full; j += kPairLanes) {
-      terms(rows.x[i], rows.y[i], x + j, y + j, value);
-      for (std::size_t lane = 0; lane < kPairLanes; ++lane) sum[lane] += value[lane];
+  PairRow weight{};
+
+  [[gnu::always_inline]] explicit PaddedColumns(PairBlock columns)
+      : x(columns.x.data()),
+        y(columns.y.data()),
+        full(columns.x.size() / kPairLanes * kPairLanes),
+        rest(columns.x.size() - full) {
+    for (std::size_t lane = 0; rest > 0 && lane < kPairLanes; ++lane) {
+      last_x[lane] = x[full + std::min(lane, rest - 1)];
+      last_y[lane] = y[full + std::min(lane, rest - 1)];
+      weight[lane] = lane < rest ? 1 : 0;
     }
-    if (rest > 0) terms(rows.x[i], rows.y[i], last_x, last_y, value);
-    for (std::size_t lane = 0; lane < rest; ++lane) sum[lane] += value[lane];
+  }
+};
+
+// The sum over all i of `rows` and j of `columns` of values that are none below 0. Column j belongs to lane j mod
+// kPairLanes; per row every lane is summed plainly, rows and lanes are added with a relative error of 2^-98.
+// terms(row_x, row_y, x, y, sum) adds the values of one row and columns (x, y), a multiple of kPairLanes, to the sums.
+// Inlined always, so that it takes the instruction set of its caller.
+template <class Terms>
+[[gnu::always_inline]] inline Dd sum_of_rows(const Terms& terms, PairBlock rows, PairBlock columns) {
+  const PaddedColumns padded(columns);
+  const std::size_t full = padded.full;
+  PairRow high{}, low{};
+  for (std::size_t i = 0; i < rows.x.size(); ++i) {
+    PairRow sum{}, last{};
+    terms(rows.x[i], rows.y[i], columns.x.first(full), columns.y.first(full), sum);
+    if (padded.rest > 0) {
+      terms(rows.x[i], rows.y[i], padded.last_x, padded.last_y, last);
+      sum += padded.weight * last;
+    }
     add_row(sum, high, low);
   }
-  return sum_of_rows(high, low);
+  return sum_of_lanes(high, low);
 }
 
-// The sum over all N^2 ordered pairs, each point with itself among them. tile(rows, columns) is sum_of_tile for a term
-// that has the same value at (dx, dy) and (-dx, -dy); it may be called from several threads.
+// The sum over all N^2 ordered pairs, each point with itself among them. tile(rows, columns) sums a function of two
+// points that has the same value when they change places; it may be called from several threads.
 template <class Tile>
 Dd sum_over_pairs(const PointView& points, const Tile& tile) {
   const std::size_t n = points.size(), blocks = (n + kPairBlock - 1) / kPairBlock;

@@ -2,10 +2,12 @@
 #include "measure/discrepancy/star_l2.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <vector>
 
 #include "core/double_double.h"
+#include "core/instruction_sets.h"
 
 namespace moire {
 namespace {
@@ -14,96 +16,158 @@ namespace {
 Dd below_one(double x) { return quick_two_sum(1.0, -x); }
 Dd above_one(double x) { return quick_two_sum(1.0, x); }
 
-// Sum over pairs of one item of each side of weight * weight * (1 - max(z, z')). Items come in ascending order of z, so
-// that each is the maximum of its pairs with all that came before it.
-class MaxSum {
+// A sum of numbers >= 0 in which one addition waits for one other, where it would wait for a dozen of a Dd. Each adds
+// an error below 2 * 2^-106 of the sum, that of s.lo + v.lo; a Dd's would be 3 * 2^-106.
+class LongSum {
  public:
-  void add(int side, Dd weight, double z) {
-    total_ = total_ + weight * below_one(z) * before_[1 - side];
-    before_[side] = before_[side] + weight;
+  [[gnu::always_inline]] void add(Dd v) {
+    const Dd s = two_sum(high_, v.hi);
+    const Dd rest = two_sum(low_, s.lo + v.lo);
+    high_ = s.hi;
+    low_ = rest.hi;
+    lowest_ += rest.lo;
   }
-  // The same with weight 1.
-  void add(int side, double z) {
-    total_ = total_ + below_one(z) * before_[1 - side];
-    before_[side] = before_[side] + Dd(1.0);
+  [[gnu::always_inline]] Dd value() const {
+    const Dd s = quick_two_sum(high_, low_);
+    return {s.hi, s.lo + lowest_};
   }
-  Dd total() const { return total_; }
 
  private:
-  Dd total_, before_[2];
+  double high_ = 0, low_ = 0, lowest_ = 0;
+};
+
+// Sums over pairs of one item of each side of weight * weight * (1 - max(z, z')), kSums of them side by side. Items
+// come in ascending order of z, so that each is the maximum of its pairs with all that came before it.
+template <std::size_t kSums>
+class MaxSums {
+ public:
+  [[gnu::always_inline]] void add(std::size_t sum, std::size_t side, Dd weight, double z) {
+    total_[sum].add(weight * below_one(z) * before_[sum][1 - side].value());
+    before_[sum][side].add(weight);
+  }
+  Dd total() const {
+    Dd all;
+    for (const LongSum& t : total_) all = all + t.value();
+    return all;
+  }
+
+ private:
+  std::array<LongSum, kSums> total_;
+  std::array<std::array<LongSum, 2>, kSums> before_;
 };
 
 // Items of [first, last) that are in ascending order of key in each half become so as a whole; `out` has room for as
-// many. visit(item, side) sees them in that order, side 0 for the first half.
+// many. visit(item, half) sees them in that order, half 0 for the first one. Which half comes next is as good as
+// random: neither this nor `visit` may branch on it.
 template <class Item, class Key, class Visit>
-void merge_halves(Item* first, Item* last, Item* out, const Key& key, const Visit& visit) {
+[[gnu::always_inline]] inline void merge_halves(Item* first, Item* last, Item* out, const Key& key,
+                                                const Visit& visit) {
   const Item* const middle = first + (last - first) / 2;
   const Item *a = first, *b = middle;
   Item* to = out;
-  while (a != middle || b != last) {
-    const bool upper = a == middle || (b != last && key(*b) < key(*a));
-    *to = upper ? *b++ : *a++;
-    visit(*to, upper ? 1 : 0);
-    ++to;
+  while (a != middle && b != last) {
+    const auto upper = static_cast<std::size_t>(key(*b) < key(*a));
+    *to = *(upper != 0 ? b : a);
+    a += 1 - upper;
+    b += upper;
+    visit(*to++, upper);
   }
+  for (; a != middle; ++a) visit(*to++ = *a, std::size_t{0});
+  for (; b != last; ++b) visit(*to++ = *b, std::size_t{1});
   std::copy(out, to, first);
+}
+
+// 1 - v, or 1 where not `counts`, without a branch.
+[[gnu::always_inline]] inline Dd below_one_if(std::size_t counts, double v) {
+  return below_one(static_cast<double>(static_cast<int>(counts)) * v);
 }
 
 struct Planar {
   double x, y;
 };
 
-// Sum over pairs of prod_d (1 - max), points in ascending order of x. Leaves them in ascending order of y. Of a pair in
-// different halves, the one in the upper half has the greater x.
-Dd pairs(Planar* first, Planar* last, Planar* scratch) {
-  if (last - first < 2) return 0.0;
-  Planar* const middle = first + (last - first) / 2;
-  const Dd within = pairs(first, middle, scratch) + pairs(middle, last, scratch);
-  MaxSum across;
+// The merges of points in the plane and of those in space, for machines with and without a fused multiply-add, which
+// products of Dd want: without, it is a call of the library. Same bits.
+struct Spatial;
+struct Merges {
+  Dd (*planar)(Planar* first, Planar* last, Planar* scratch);
+  Dd (*spatial)(Spatial* first, Spatial* last, Spatial* scratch);
+};
+
+// Sum over pairs from different halves of the order of x, each in ascending order of y. Leaves all in that order.
+[[gnu::always_inline]] inline Dd merge(Planar* first, Planar* last, Planar* scratch) {
+  MaxSums<1> across;
   merge_halves(
       first, last, scratch, [](const Planar& p) { return p.y; },
-      [&](const Planar& p, int side) { side == 0 ? across.add(0, p.y) : across.add(1, below_one(p.x), p.y); });
-  return within + across.total();
+      [&](const Planar& p, std::size_t half) { across.add(0, half, below_one_if(half, p.x), p.y); });
+  return across.total();
+}
+
+// Sum over pairs of prod_d (1 - max), points in ascending order of x. Leaves them in ascending order of y. Of a pair in
+// different halves, the one in the upper half has the greater x.
+Dd pairs(const Merges& merges, Planar* first, Planar* last, Planar* scratch) {
+  if (last - first < 2) return 0.0;
+  Planar* const middle = first + (last - first) / 2;
+  const Dd within = pairs(merges, first, middle, scratch) + pairs(merges, middle, last, scratch);
+  return within + merges.planar(first, last, scratch);
 }
 
 struct Spatial {
   double x, y, t;
-  int side = 0;  // the half of the order of x that it is in
+  std::size_t side = 0;  // the half of the order of x that it is in
 };
 
-// Sum over pairs from different sides, items in ascending order of y. Leaves them in ascending order of t. Of a pair,
-// side 1 has the greater x, and the upper half the greater y: each item is weighted with the maxima that are its own.
-Dd cross_pairs(Spatial* first, Spatial* last, Spatial* scratch) {
-  if (last - first < 2) return 0.0;
-  Spatial* const middle = first + (last - first) / 2;
-  const Dd within = cross_pairs(first, middle, scratch) + cross_pairs(middle, last, scratch);
-  MaxSum upper_is_right, upper_is_left;
+// Sum over pairs from different sides and different halves of the order of y, each half in ascending order of t. Leaves
+// all in that order. Of a pair, side 1 has the greater x, and the upper half the greater y: each item is weighted with
+// the maxima that are its own.
+[[gnu::always_inline]] inline Dd merge(Spatial* first, Spatial* last, Spatial* scratch) {
+  MaxSums<2> across;  // of pairs whose upper one is on side 1, and on side 0
   merge_halves(
       first, last, scratch, [](const Spatial& p) { return p.t; },
-      [&](const Spatial& p, int half) {
-        if (p.side == 0) {
-          half == 0 ? upper_is_right.add(0, p.t) : upper_is_left.add(0, below_one(p.y), p.t);
-        } else {
-          half == 0 ? upper_is_left.add(1, below_one(p.x), p.t)
-                    : upper_is_right.add(1, below_one(p.x) * below_one(p.y), p.t);
-        }
+      [&](const Spatial& p, std::size_t half) {
+        across.add(p.side ^ half, p.side, below_one_if(p.side, p.x) * below_one_if(half, p.y), p.t);
       });
-  return within + (upper_is_right.total() + upper_is_left.total());
+  return across.total();
+}
+
+Dd merge_planar(Planar* first, Planar* last, Planar* scratch) { return merge(first, last, scratch); }
+Dd merge_spatial(Spatial* first, Spatial* last, Spatial* scratch) { return merge(first, last, scratch); }
+#if MOIRE_HAS_AVX
+[[gnu::target("fma")]] Dd merge_planar_fma(Planar* first, Planar* last, Planar* scratch) {
+  return merge(first, last, scratch);
+}
+[[gnu::target("fma")]] Dd merge_spatial_fma(Spatial* first, Spatial* last, Spatial* scratch) {
+  return merge(first, last, scratch);
+}
+Merges best_merges() {
+  if (__builtin_cpu_supports("fma")) return {merge_planar_fma, merge_spatial_fma};
+  return {merge_planar, merge_spatial};
+}
+#else
+Merges best_merges() { return {merge_planar, merge_spatial}; }
+#endif
+
+// Sum over pairs from different sides, items in ascending order of y. Leaves them in ascending order of t.
+Dd cross_pairs(const Merges& merges, Spatial* first, Spatial* last, Spatial* scratch) {
+  if (last - first < 2) return 0.0;
+  Spatial* const middle = first + (last - first) / 2;
+  const Dd within = cross_pairs(merges, first, middle, scratch) + cross_pairs(merges, middle, last, scratch);
+  return within + merges.spatial(first, last, scratch);
 }
 
 // As for Planar; `scratch` has room for twice as many.
-Dd pairs(Spatial* first, Spatial* last, Spatial* scratch) {
+Dd pairs(const Merges& merges, Spatial* first, Spatial* last, Spatial* scratch) {
   if (last - first < 2) return 0.0;
   Spatial* const middle = first + (last - first) / 2;
-  const Dd within = pairs(first, middle, scratch) + pairs(middle, last, scratch);
+  const Dd within = pairs(merges, first, middle, scratch) + pairs(merges, middle, last, scratch);
   Spatial* to = scratch;
   merge_halves(
       first, last, scratch + (last - first), [](const Spatial& p) { return p.y; },
-      [&](Spatial p, int half) {
+      [&](Spatial p, std::size_t half) {
         p.side = half;
         *to++ = p;
       });
-  return within + cross_pairs(scratch, to, to);
+  return within + cross_pairs(merges, scratch, to, to);
 }
 
 // T^2 from Warnock's sums over points and over ordered pairs.
@@ -129,7 +193,7 @@ double star_l2_squared(const PointView& points) {
       diagonal = diagonal + box;
       linear = linear + box * (above_one(p.x) * above_one(p.y));
     }
-    off_diagonal = pairs(items.data(), items.data() + n, scratch.data());
+    off_diagonal = pairs(best_merges(), items.data(), items.data() + n, scratch.data());
   } else {
     std::vector<Spatial> items(n), scratch(2 * n);
     for (std::size_t i = 0; i < n; ++i) items[i] = {points.x[i], points.y[i], points.t[i]};
@@ -140,7 +204,7 @@ double star_l2_squared(const PointView& points) {
       diagonal = diagonal + box;
       linear = linear + box * (above_one(p.x) * above_one(p.y) * above_one(p.t));
     }
-    off_diagonal = pairs(items.data(), items.data() + n, scratch.data());
+    off_diagonal = pairs(best_merges(), items.data(), items.data() + n, scratch.data());
   }
   const Dd square = warnock(points.dims(), static_cast<double>(n), linear, diagonal + off_diagonal + off_diagonal);
   // Roth's lower bound keeps T^2 far above the rounding of any N that fits into memory; but never below 0, whatever

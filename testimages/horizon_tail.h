@@ -1,0 +1,33 @@
+// The stretch of a side towards the horizon of a checkerboard, where its lines have no end: the part of the series in
+// checker_series.h that is not integrated from line to line.
+#pragma once
+
+#include "testimages/board_side.h"
+#include "testimages/weight_terms.h"
+
+namespace moire {
+
+// Weights are interpolated by this many powers of W: those of low degree exactly, others well where the stretch is at
+// most kTailLength half lengths of their rectangle.
+inline constexpr std::size_t kTailPowers = 8;
+inline constexpr double kTailLength = 0.1;
+
+// How near to its far end, as a share of W there, a stretch may begin under a weight of that degree along the side.
+double largest_tail_start(int degree);
+
+// The part 0 <= tau <= side.from of a side, W from side.w0 (or 0) upwards; the first `terms` terms of the weight, in
+// powers of W / deepest; and the noise of the rows' values.
+struct HorizonStretch {
+  const BoardSide& side;
+  const WeightTerms::Along& along;
+  const WeightTerms& weight;
+  int terms;
+  double deepest;
+  double s_noise, j_noise, w_noise;
+};
+
+// The integral over the stretch of s(v) sum over j of g_j W^(j+1) deepest^-j E_(j+1)(u) dtau, with a guaranteed bound.
+// Terms that stay below a share of `goal` by their size alone are not evaluated.
+Bounded horizon_tail(const HorizonStretch& stretch, double goal);
+
+}  // namespace moire
