@@ -18,10 +18,9 @@ struct DiskFilter {
 }  // namespace
 
 extern constinit const FilterInfo disk_filter;
-constinit const FilterInfo disk_filter = describe_radial<DiskFilter>(
-    {.name = "disk",
-     .title = "Disk (pillbox), radial",
-     .cite = "OpenImageIO, src/libutil/filter.cpp",
-     .params = kParams});
+constinit const FilterInfo disk_filter = describe_radial<DiskFilter>({.name = "disk",
+                                                                      .title = "Disk (pillbox), radial",
+                                                                      .cite = "OpenImageIO, src/libutil/filter.cpp",
+                                                                      .params = kParams});
 
 }  // namespace moire

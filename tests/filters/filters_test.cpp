@@ -16,7 +16,8 @@ using namespace moire;
 
 namespace {
 
-// Each separable filter with its defaults, with each of its choices and with each number at either end; and some between.
+// Each separable filter with its defaults, with each of its choices and with each number at either end; and some
+// between.
 std::vector<Filter> catalogue() {
   std::vector<std::string> texts = test::separable_texts();
   for (const FilterInfo* info : filters()) {
