@@ -97,8 +97,8 @@ CommandWords exact_words(CLI::App& app) {
   w.option("-o", "FILE", "write the image (float32 EXR)");
   w.option("--pixels", "FILE", "lines x,y, any 64-bit integers; prints CSV x,y,value,bound");
   w.option("--accuracy", "A",
-           "bound aimed at on checkerboards, 1e-15 to 0.1: a larger one takes less time; default 1e-12, and 1e-9 where "
-           "a window meets the horizon");
+           "bound aimed at on checkerboards under separable filters, 1e-15 to 0.1: a larger one takes less time; "
+           "default 1e-12, and 1e-9 where a window meets the horizon");
   return w;
 }
 
