@@ -81,6 +81,8 @@ class Filter {
   const Kernel& kernel() const noexcept;
   // Precondition: is_radial().
   const RadialKernel& radial_kernel() const noexcept;
+  // Whether every weight is exactly 1 on the pixel and 0 beside it: Kernel::is_unit_box().
+  bool is_unit_box() const noexcept { return !is_radial() && kernel_->is_unit_box(); }
   // Half the side of the window, pixels: of a radial filter the radius of its disk.
   double radius() const noexcept { return is_radial() ? radial_->radius() : kernel_->radius(); }
   // Pixels beyond the image whose samples its windows touch: ceil(R - 1/2) on each side.

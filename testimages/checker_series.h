@@ -39,9 +39,6 @@
 
 namespace moire {
 
-// Pieces of a side between lines of the board, of two or three nodes each under a box.
-inline constexpr double kMaxPieces = 40000;
-
 // What bounds are aimed at, of J: where only the remainder is in the way, and of all stretches towards the horizon. A
 // side is cut into at most `max_pieces` pieces.
 struct SeriesAim {
@@ -96,9 +93,5 @@ class CheckerSeries {
   double nearby_ = 0;  // on the sum of the terms at complex points near the rectangle, for quadrature
   double estimate_ = 0;
 };
-
-// The area of the even squares inside a polygon of that kind, by the better form of the series, square pixels. Never
-// more than half the polygon's area from the truth, which is known beforehand.
-BoxIntegral board_series(const LocalHomography& local, const Polygon& polygon, double max_pieces = kMaxPieces);
 
 }  // namespace moire

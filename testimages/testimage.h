@@ -93,6 +93,9 @@ struct WeightIntegral {
 // The bound on a pixel's value that is worth time, above 0: where the window meets the horizon, and elsewhere.
 struct WeightAim {
   double bound = 1e-12, at_horizon = 1e-9;
+
+  // The same for all windows.
+  static constexpr WeightAim everywhere(double bound) { return {bound, bound}; }
 };
 
 // What may be asked for in place of these.

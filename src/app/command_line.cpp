@@ -106,8 +106,9 @@ Command exact_options(const CommandWords& w) {
   if (w.has("-o") == w.has("--pixels")) {
     throw Error(w.place(), "give either -o FILE for the image or --pixels FILE for single pixels");
   }
-  return ExactOptions{w.required("SCENE"), w.required("--filter"), w.text("-o"), w.text("--pixels"),
-                      w.has("--accuracy") ? w.number("--accuracy", kFinestAim, kCoarsestAim) : 0};
+  return ExactOptions{
+      w.required("SCENE"), w.required("--filter"), w.text("-o"), w.text("--pixels"),
+      w.has("--accuracy") ? WeightAim::everywhere(w.number("--accuracy", kFinestAim, kCoarsestAim)) : WeightAim{}};
 }
 
 CommandWords points_words(CLI::App& app) {

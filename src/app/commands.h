@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "measure/contrast_sensitivity.h"
 #include "measure/spectrum.h"
+#include "testimages/testimage.h"
 
 namespace moire {
 
@@ -43,9 +44,9 @@ struct RenderOptions {
 
 struct ExactOptions {
   std::string scene, filter;
-  std::string out;      // path of the image, or
-  std::string pixels;   // path of a list of pixels
-  double accuracy = 0;  // the bound that is aimed at; 0: the usual ones
+  std::string out;     // path of the image, or
+  std::string pixels;  // path of a list of pixels
+  WeightAim aim;
 };
 
 struct PointsOptions {

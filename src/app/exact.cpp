@@ -30,10 +30,6 @@ void say_cost(const std::string& place, std::int64_t count, const char* of, std:
                          1e-3 * each, thread_count(), bound));
 }
 
-WeightAim aim_of(const ExactOptions& options) {
-  return options.accuracy > 0 ? WeightAim{options.accuracy, options.accuracy} : WeightAim{};
-}
-
 void print_pixels(const NamedScene& scene, const Filter& filter, const std::vector<Pixel>& pixels,
                   const std::string& place, const WeightAim& aim) {
   print("x,y,value,bound\n");
@@ -69,15 +65,14 @@ Exit execute(const ExactOptions& options) {
   if (!options.pixels.empty()) {
     print_pixels(study.scenes[0], study.filters[0],
                  parse_pixels(read_bytes(options.pixels, kMaxPixelListBytes), options.pixels), options.pixels,
-                 aim_of(options));
+                 options.aim);
     return Exit::ok;
   }
   check_image_size(study.scenes[0], "-o");
-  const WeightAim aim = aim_of(options);
-  Truth truth = find_truth(study.scenes[0].image, study.filters[0], aim);
+  Truth truth = find_truth(study.scenes[0].image, study.filters[0], options.aim);
   // The first time starts threads and makes tables, which shows where all is over at once.
   constexpr std::int64_t kShort = 20'000'000;  // nanoseconds
-  if (truth.time_ns < kShort) truth = find_truth(study.scenes[0].image, study.filters[0], aim);
+  if (truth.time_ns < kShort) truth = find_truth(study.scenes[0].image, study.filters[0], options.aim);
   write_exact_exr(options.out, study, 0, 0, truth);
   say_cost(options.out, truth.rows.active_pixels(), "active pixels", truth.time_ns, truth.exact.max_bound);
   return Exit::ok;

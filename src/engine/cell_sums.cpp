@@ -77,7 +77,7 @@ CellSums::CellSums(const Filter& filter)
     : filter_(filter),
       reach_(filter.apron()),
       side_(static_cast<std::size_t>(2 * reach_ + 1)),
-      unit_box_(!filter.is_radial() && filter.kernel().is_unit_box()) {
+      unit_box_(filter.is_unit_box()) {
   offset_x_.resize(kChunk);
   inside_.resize(kChunk);
   partial_.resize(side_ * side_ * 2 * kSums);

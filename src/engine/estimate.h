@@ -15,8 +15,7 @@ struct Estimate {
 template <class Mean>
 Estimate estimate(Estimator estimator, const WeightSum& sums, double rho, const Mean& own_mean) {
   // Adding +0.0 turns a negative zero, from a negative lobe, into a positive one.
-  // Importance estimators come here under the unit box alone, where all weights are 1 and so are all of theirs.
-  if (estimator == Estimator::unnormalised || is_importance(estimator)) return {sums.kf / rho + 0.0, false};
+  if (estimator == Estimator::unnormalised) return {sums.kf / rho + 0.0, false};
   if (estimator == Estimator::ratio && sums.k >= rho / 4) return {sums.kf / sums.k + 0.0, false};
   const double mean = own_mean();
   return {mean + (sums.kf - mean * sums.k) / rho + 0.0, estimator == Estimator::ratio};

@@ -37,6 +37,15 @@ std::vector<PieceWeight> pieces_of(const Kernel& kernel) {
   return pieces;
 }
 
+// `besides`: what the integral of the boundary may be off by besides its own bound.
+template <class Integral>
+Exact integrate(Integral& integral, const Boundary& boundary, double besides) {
+  integral.reset();
+  for (const Segment& s : boundary.segments) integral.add(s);
+  for (const Circle& c : boundary.circles) integral.add(c);
+  return {integral.value() + 0.0, integral.bound() + besides};
+}
+
 // The scene's boundary in one window, integrated. Buffers are kept from pixel to pixel.
 class PixelIntegrator {
  public:
@@ -69,7 +78,7 @@ class PixelIntegrator {
     const std::optional<WeightIntegral> known = scene_.weight_integral(pixel, pieces_, aim_, boundary_);
     if (!known) scene_.boundary(pixel, kernel_.radius(), boundary_);
     const double besides = doubt(boundary_, bounds_, 2.1 * kernel_.k_max() * kernel_.k_error()) + motion_error_;
-    Exact e = swept_ ? integrated(*swept_, besides) : integrated(integral_, besides);
+    Exact e = swept_ ? integrate(*swept_, boundary_, besides) : integrate(integral_, boundary_, besides);
     if (!known) return e;
     e.value += known->value;
     e.bound += known->bound + kUnit * std::fabs(e.value);
@@ -77,14 +86,6 @@ class PixelIntegrator {
   }
 
  private:
-  template <class Integral>
-  Exact integrated(Integral& integral, double besides) const {
-    integral.reset();
-    for (const Segment& s : boundary_.segments) integral.add(s);
-    for (const Circle& c : boundary_.circles) integral.add(c);
-    return {integral.value() + 0.0, integral.bound() + besides};
-  }
-
   // A box filter's value from the integral over its window: k(x) k(y) is constant there.
   Exact weighed(const BoxIntegral& box) const {
     return {box.value * box_weight_, (1 + 8 * kUnit) * (box.bound * (box_weight_ + box_weight_error_) +
@@ -115,10 +116,7 @@ class RadialPixelIntegrator {
   Exact operator()(Pixel pixel) {
     boundary_.clear();
     scene_.boundary(pixel, kernel_.radius(), boundary_);
-    integral_.reset();
-    for (const Segment& s : boundary_.segments) integral_.add(s);
-    for (const Circle& c : boundary_.circles) integral_.add(c);
-    return {integral_.value() + 0.0, integral_.bound() + doubt(boundary_, bounds_, kernel_.k_error())};
+    return integrate(integral_, boundary_, doubt(boundary_, bounds_, kernel_.k_error()));
   }
 
  private:

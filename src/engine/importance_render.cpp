@@ -46,7 +46,7 @@ class ImportanceRenderer {
                      const ActiveRows& rows, bool exhaustive)
       : scene_(scene),
         pattern_(pattern),
-        is_box_(!filter.is_radial() && filter.kernel().is_unit_box()),
+        is_box_(filter.is_unit_box()),
         is_radial_(filter.is_radial()),
         inverse_(filter),
         estimator_(estimator),

@@ -3,7 +3,6 @@
 #include "engine/render.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <deque>
@@ -53,9 +52,10 @@ void require_renderable(Grid grid, const Filter& filter, Estimator estimator, st
 Rendered render(const TestImage& scene, Samples samples, const Filter& filter, Estimator estimator,
                 const ActiveRows& rows, bool exhaustive) {
   assert(!scene.moves() || samples.has_time());
-  const bool unit_box = !filter.is_radial() && filter.kernel().is_unit_box();
-  if (samples.pattern() != nullptr && unit_box && !scene.moves()) {
-    return render_box(scene, *samples.pattern(), estimator, rows, exhaustive);
+  if (samples.pattern() != nullptr && filter.is_unit_box() && !scene.moves()) {
+    // The window is the pixel and all weights are 1: importance samples are the pixel's own, and their mean the ratio.
+    const Estimator same = is_importance(estimator) ? Estimator::ratio : estimator;
+    return render_box(scene, *samples.pattern(), same, rows, exhaustive);
   }
   if (is_importance(estimator)) {
     assert(samples.pattern() != nullptr);

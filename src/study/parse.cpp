@@ -32,7 +32,7 @@ WeightAim accuracy_of(const Node& node) {
                 fmt::format("accuracy = {}; a number from {} to {}, the error bound that exact values aim at",
                             shortest(aim), shortest(kFinestAim), shortest(kCoarsestAim)));
   }
-  return {aim, aim};
+  return WeightAim::everywhere(aim);
 }
 
 // Puts the text of a file that the study names behind the study's own.

@@ -2,7 +2,6 @@
 // count, and so the same bits, as testing every sample; and it tests few.
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -13,6 +12,7 @@
 #include "engine/box_count.h"
 #include "engine/count_inside.h"
 #include "engine/render.h"
+#include "engine/skipping.h"
 
 using namespace moire;
 using namespace moire::test;
@@ -112,8 +112,6 @@ int differences(const TestImage& scene, const Pattern& pattern, std::int64_t& te
   }
   return count;
 }
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 }  // namespace
 

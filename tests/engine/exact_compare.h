@@ -24,6 +24,20 @@ inline std::vector<std::string> wide_filters() {
   return texts;
 }
 
+// What a message needs to make the case again, and both values.
+inline std::string describe_pixel(const TestImage& image, Pixel pixel, const std::string& filter, Exact got,
+                                  oracle::Value truth) {
+  std::ostringstream text;
+  text << std::setprecision(17) << image.info().name;
+  for (const auto& [name, numbers] : image.stored()) {
+    text << ' ' << name;
+    for (const double v : numbers) text << ' ' << v;
+  }
+  text << ", pixel " << pixel.x << ' ' << pixel.y << ", " << filter << ": " << got.value << " +- " << got.bound
+       << ", oracle " << static_cast<double>(truth.value) << " +- " << static_cast<double>(truth.error);
+  return text.str();
+}
+
 class ExactComparison {
  public:
   // `tolerance`: the largest |product - oracle| that passes.
@@ -37,7 +51,7 @@ class ExactComparison {
     const Exact got = exact_pixel(image, filter_, pixel);
     const oracle::Value truth = oracle_value(image, pixel);
     const long double error = std::fabs(static_cast<long double>(got.value) - truth.value);
-    INFO(describe(image, pixel, got, truth));  // made only when a check fails
+    INFO(describe_pixel(image, pixel, text_, got, truth));  // made only when a check fails
     CHECK(error <= static_cast<long double>(tolerance_));
     CHECK(error <= static_cast<long double>(got.bound) + truth.error);
     bounds_.push_back(got.bound);
@@ -63,18 +77,6 @@ class ExactComparison {
   }
 
  private:
-  std::string describe(const TestImage& image, Pixel pixel, Exact got, oracle::Value truth) const {
-    std::ostringstream text;
-    text << std::setprecision(17) << image.info().name;
-    for (const auto& [name, numbers] : image.stored()) {
-      text << ' ' << name;
-      for (const double v : numbers) text << ' ' << v;
-    }
-    text << ", pixel " << pixel.x << ' ' << pixel.y << ", " << text_ << ": " << got.value << " +- " << got.bound
-         << ", oracle " << static_cast<double>(truth.value) << " +- " << static_cast<double>(truth.error);
-    return text.str();
-  }
-
   // Box: closed-form areas; every other kernel: iterated quadrature.
   oracle::Value oracle_value(const TestImage& image, Pixel pixel) const {
     const std::string_view kind = image.info().name;

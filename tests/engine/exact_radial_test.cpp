@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "engine/exact.h"
+#include "engine/exact_compare.h"
 #include "engine/random_scenes.h"
 #include "filter_list.h"
 #include "oracle/rings.h"
@@ -35,7 +36,7 @@ class RadialComparison {
     const Exact got = exact_pixel(image, filter_, pixel);
     const oracle::Value truth = oracle_value(image, pixel);
     const long double error = std::fabs(static_cast<long double>(got.value) - truth.value);
-    INFO(describe(image, pixel, got, truth));
+    INFO(describe_pixel(image, pixel, text_, got, truth));
     CHECK(error <= static_cast<long double>(got.bound) + truth.error);
     CHECK(truth.error < 1e-15L);
     CHECK(got.bound <= kGoal);
@@ -55,18 +56,6 @@ class RadialComparison {
     if (kind == "edge") return oracle::filtered(kernel_, oracle::edge_of(image), pixel);
     if (kind == "disk") return oracle::filtered(kernel_, oracle::disk_of(image), pixel);
     return oracle::filtered(kernel_, oracle::board_of(image), pixel);
-  }
-
-  std::string describe(const TestImage& image, Pixel pixel, Exact got, oracle::Value truth) const {
-    std::ostringstream text;
-    text << std::setprecision(17) << image.info().name;
-    for (const auto& [name, numbers] : image.stored()) {
-      text << ' ' << name;
-      for (const double v : numbers) text << ' ' << v;
-    }
-    text << ", pixel " << pixel.x << ' ' << pixel.y << ", " << text_ << ": " << got.value << " +- " << got.bound
-         << ", oracle " << static_cast<double>(truth.value) << " +- " << static_cast<double>(truth.error);
-    return text.str();
   }
 
   std::string text_;

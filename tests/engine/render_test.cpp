@@ -1,7 +1,6 @@
 // Sampled images: skipping and threads change no bit, over the whole catalogue; and the error has the law it must have.
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -11,13 +10,12 @@
 #include "core/sum.h"
 #include "engine/exact.h"
 #include "engine/render.h"
+#include "engine/skipping.h"
 
 using namespace moire;
 using namespace moire::test;
 
 namespace {
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 bool same(const Rendered& a, const Rendered& b) {
   if (a.value.size() != b.value.size() || a.fallbacks != b.fallbacks || a.samples_evaluated != b.samples_evaluated) {
@@ -27,18 +25,6 @@ bool same(const Rendered& a, const Rendered& b) {
     if (!same_bits(a.value[i], b.value[i])) return false;
   }
   return true;
-}
-
-// Pixels of the exhaustive image that differ from the default path: those with a value of their own there from it, the
-// others from exactly +0.0 or 1.
-int differences(const Rendered& some, const Rendered& all, const ActiveRows& rows) {
-  int count = 0;
-  std::size_t index = 0;
-  for_each_rendered(rows, all, [&](int, int, Cover cover, double value) {
-    const double flat = cover == Cover::all ? 1.0 : 0.0;
-    count += !same_bits(value, is_rendered(some.pixels, cover) ? some.value[index++] : flat);
-  });
-  return count;
 }
 
 // Kernels of one to seven cells, smooth and not, with and without negative lobes.
@@ -51,21 +37,13 @@ std::vector<Filter> narrow_and_wide_filters() {
 }
 
 void check_skipping(const TestImage& scene, Samples samples, const Filter& filter) {
-  CAPTURE(filter.text());
-  CAPTURE(samples.density());
-  const ActiveRows rows = enumerate(scene, filter.radius());
-  for (const std::string_view estimator_name : estimator_names()) {
-    CAPTURE(std::string(estimator_name));
-    const Estimator estimator = find_estimator(estimator_name, "test");
+  std::vector<Estimator> estimators;
+  for (const std::string_view name : estimator_names()) {
+    const Estimator estimator = find_estimator(name, "test");
     if (is_importance(estimator) && samples.pattern() == nullptr) continue;  // has samples for each pixel alone
-    const Rendered some = render(scene, samples, filter, estimator, rows);
-    const Rendered all = render(scene, samples, filter, estimator, rows, true);
-    CHECK(differences(some, all, rows) == 0);
-    CHECK(some.fallbacks == all.fallbacks);
-    CHECK(some.samples_total == all.samples_total);
-    CHECK(all.samples_evaluated == all.samples_total);
-    CHECK(some.samples_evaluated <= some.samples_total);
+    estimators.push_back(estimator);
   }
+  test::check_skipping(scene, samples, filter, estimators);
 }
 
 }  // namespace

@@ -15,14 +15,13 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "engine/render.h"
+#include "engine/skipping.h"
 #include "engine/tree_cells.h"
 
 using namespace moire;
 using namespace moire::test;
 
 namespace {
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 struct PointSet {
   std::vector<double> x, y;
@@ -117,28 +116,7 @@ int differences(const TestImage& scene, const WeightTree& tree, int step, std::i
   return count;
 }
 
-// As render() sees them: skipping and not, by all estimators.
-void check_images(const TestImage& scene, const Pattern& pattern, const Filter& filter) {
-  const ActiveRows rows = enumerate(scene, filter.radius());
-  for (const Estimator estimator : {Estimator::ratio, Estimator::unnormalised, Estimator::control_variate}) {
-    const Rendered some = render(scene, pattern, filter, estimator, rows);
-    const Rendered all = render(scene, pattern, filter, estimator, rows, true);
-    int different = 0;
-    std::size_t index = 0;
-    for_each_rendered(rows, all, [&](int, int, Cover cover, double value) {
-      const double flat = cover == Cover::all ? 1.0 : 0.0;
-      different += !same_bits(value, is_rendered(some.pixels, cover) ? some.value[index++] : flat);
-    });
-    CAPTURE(filter.text());
-    CAPTURE(pattern.n());
-    CAPTURE(static_cast<int>(estimator));
-    CHECK(different == 0);
-    CHECK(some.fallbacks == all.fallbacks);
-    CHECK(some.samples_total == all.samples_total);
-    CHECK(all.samples_evaluated == all.samples_total);
-    CHECK(some.samples_evaluated <= some.samples_total);
-  }
-}
+constexpr Estimator kShared[] = {Estimator::ratio, Estimator::unnormalised, Estimator::control_variate};
 
 }  // namespace
 
@@ -374,15 +352,15 @@ TEST_SUITE("heavy") {
         for (const Pattern& pattern : fixed_patterns(n)) {
           for (const auto& named : scene_catalogue()) {
             CAPTURE(named.first);
-            check_images(named.second, pattern, filter);
+            check_skipping(named.second, pattern, filter, kShared);
           }
         }
       }
     }
     const Filter mitchell(parse_spec("mitchell", "test"));
     for (const Pattern& pattern : fixed_patterns(4096)) {
-      check_images(scenes::edge({5.3, 4.7}, 97.3, {12, 10}), pattern, mitchell);
-      check_images(scenes::disk({5.7, 4.2}, 3.25, {12, 10}), pattern, mitchell);
+      check_skipping(scenes::edge({5.3, 4.7}, 97.3, {12, 10}), pattern, mitchell, kShared);
+      check_skipping(scenes::disk({5.7, 4.2}, 3.25, {12, 10}), pattern, mitchell, kShared);
     }
   }
 }
