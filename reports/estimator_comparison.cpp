@@ -59,10 +59,18 @@ std::string estimator_comparison(const Summary& summary) {
   std::string out = fmt::format(
       "## Estimators compared\n\n"
       "RMSE over active pixels, and in brackets over that of {}. At equal samples per pixel; `importance` draws them "
-      "for "
-      "each pixel alone, the others share each among all pixels whose windows hold it. Intervals are in the tables of "
-      "the patterns below.\n\n",
+      "for each pixel alone, the others share each among all pixels whose windows hold it. Intervals are in the tables "
+      "of the patterns below.\n\n",
       markdown_code(estimators.front()));
+  const bool any_importance = std::any_of(estimators.begin(), estimators.end(),
+                                          [](const std::string& name) { return name.starts_with("importance"); });
+  if (any_importance) {
+    out +=
+        "`importance` draws a pixel's samples as dense as |k| is large, k the filter, and takes the integral of |k| "
+        "times the mean of their values, each with the sign of k there: unbiased. `importance:form=ratio` divides the "
+        "signed sum by the sum of the signs instead, which is exact where the scene is flat. Under filters without "
+        "negative values the two are the same.\n\n";
+  }
   for (const std::string& scene : cases.scenes()) {
     for (const std::string& pattern : cases.patterns()) {
       const std::string lines = table(cases, scene, pattern, filters, estimators);

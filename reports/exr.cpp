@@ -73,6 +73,9 @@ std::string write_exr_file(Grid grid, std::span<const float> y, const std::vecto
   // Without a DateTime the writer puts in the clock's. One of a type that it does not write keeps both out of the file;
   // the debug build's complaint about it is switched off.
   OIIO::attribute("debug", 0);
+  // Threads of OpenEXR's own that compress: all cores for large images, none for those of which several are written at
+  // a time (app/image_files.cpp). There every sixteen lines would wake and wait for one.
+  OIIO::attribute("exr_threads", spec.image_pixels() > kSmallImage ? 0 : -1);
   spec.attribute("DateTime", 0);
   spec.attribute("Software", software);
   for (const Attribute& attribute : attributes) set_attribute(spec, attribute);

@@ -19,18 +19,24 @@
 namespace moire {
 namespace {
 
+// Whether the process may have so many bytes more, or addresses alone. Nothing of it is touched: no page is cleared,
+// and threads on other cores need not be told that it is gone.
+bool has_room(std::size_t bytes, int access) {
+  void* const room = ::mmap(nullptr, bytes, access, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) return false;
+  ::munmap(room, bytes);
+  return true;
+}
+
 // Throws where there is no room for the module: its libraries, 261 on Debian 12, take 390 MiB of addresses, and where
 // that fails in the middle of their static constructors, some of them end the program. Nothing is taken but addresses.
 void require_addresses() {
   constexpr std::size_t kMebibytes = 448;
-  void* const room = ::mmap(nullptr, kMebibytes << 20, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room == MAP_FAILED) {
-    throw Error("memory",
-                "image files need " + std::to_string(kMebibytes) +
-                    " MiB of addresses for their libraries; allow more, or write no images",
-                Exit::io);
-  }
-  ::munmap(room, kMebibytes << 20);
+  if (has_room(kMebibytes << 20, PROT_NONE)) return;
+  throw Error("memory",
+              "image files need " + std::to_string(kMebibytes) +
+                  " MiB of addresses for their libraries; allow more, or write no images",
+              Exit::io);
 }
 
 // The module stays open to the end: its libraries leave threads behind that must not lose their code.
@@ -71,12 +77,11 @@ std::string_view text_of(const ImageBytes& bytes) {
 std::string software() { return "moire " + tool().version; }
 
 // Throws std::bad_alloc unless there is memory for the formats' libraries to work on an image of `values`. Where it
-// ends in the middle of their work some of them end the program; what is asked for here is not touched and costs
-// nothing.
+// ends in the middle of their work some of them end the program.
 void require_memory(std::size_t values) {
-  constexpr std::size_t kOfLibraries = std::size_t{64} << 20, kOfValue = 16;  // buffers, threads; copies of the image
-  void* volatile room = ::operator new(kOfLibraries + kOfValue * values);     // volatile: it is not optimised away
-  ::operator delete(room);
+  constexpr std::size_t kOfLibraries = std::size_t{64} << 20, kOfValue = 16;    // buffers, threads; copies of the image
+  const std::size_t images = values <= 3 * kSmallImage ? kWrittenTogether : 1;  // three channels at most
+  if (!has_room(kOfLibraries + kOfValue * values * images, PROT_READ | PROT_WRITE)) throw std::bad_alloc();
 }
 
 // Throws what OpenImageIO says, on one line.

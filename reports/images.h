@@ -2,6 +2,7 @@
 // opened at the first image: linking it would cost every start of the program about 0.2 s.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -35,6 +36,9 @@ struct Raster {
 
 // The files appear whole (file.h), in the format of the function, whatever the name. The same image and attributes give
 // the same bytes; no time stamps. `Software` is added. All throw Error (Exit::io) naming path and reason.
+
+// Images of so many pixels or fewer may be written by several threads, up to kWrittenTogether at a time.
+inline constexpr std::size_t kSmallImage = std::size_t{1} << 20, kWrittenTogether = 4;
 
 // float32, ZIP; every value keeps its bits, NaN and infinities too.
 void write_exr(const std::string& path, Grid grid, std::span<const float> y, const std::vector<Attribute>& attributes);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/rounding.h"
 #include "testimages/half_covered.h"
@@ -117,13 +118,13 @@ struct Split {
   Unresolved rest;
 };
 
-// Cut at W = constant, or along a middle line of squares near there, which makes the bound on the rest one of second
-// order: whichever is best for a smooth weight.
-Split split(BoardWindow& window) {
+// Cut with about so many squares in front, at W = constant, or along a middle line of squares near there, which makes
+// the bound on the rest one of second order: whichever is best for a smooth weight.
+Split split(BoardWindow& window, double squares) {
   const auto& [u, v, w] = window.local;
   SharpClipper& clipper = window.clipper;
   const auto depth_at = [&w = w](Vec2 p) { return w.a * p.x + w.b * p.y + w.c.value(); };
-  const double nearest = front_of(window.local, window.board, kMaxCellsOfMore);
+  const double nearest = front_of(window.local, window.board, squares);
   Split best;
   clipper.set_line(kBeyond, sharp_line({w.a, w.b, w.c - Dd(nearest), w.c_error}, w, 0, 1));
   clipper.split(window.part, kBeyond, &best.front, &best.behind);
@@ -149,16 +150,38 @@ Split split(BoardWindow& window) {
     clipper.split(window.part, middle.slot, &other.front, &other.behind);
     Polygon front;
     for (std::size_t i = 0; i < other.front.size(); ++i) front.push_back(other.front.at(i));
-    if (!(squares_met(window.local, front) <= 1.5 * kMaxCellsOfMore)) continue;
+    if (!(squares_met(window.local, front) <= 1.5 * squares)) continue;
     other.rest = half_covered(window.local, other.behind, middle);
     if (other.rest.bound(typical) < best.rest.bound(typical)) best = other;
   }
   return best;
 }
 
-}  // namespace
+// Where to cut; nothing: nowhere, all squares are clipped.
+std::optional<Split> usual_split(BoardWindow& window) {
+  if (squares_met(window.local, window.board) <= kMaxCells) return std::nullopt;
+  return split(window, kMaxCellsOfMore);
+}
 
-void append_squares(BoardWindow& window, Boundary& out) {
+// From one try to the next: that makes the bound on a weight without jumps some two to eight times smaller.
+constexpr double kMore = 4;
+
+std::optional<Split> split_for(BoardWindow& window, const SquaresAim& aim) {
+  const double all = squares_met(window.local, window.board);
+  const auto enough = [&](const Split& parts) { return parts.rest.bound(aim.weight) <= aim.goal; };
+  for (double squares = aim.least; squares < std::min<double>(all, kMaxCellsOfMore); squares *= kMore) {
+    Split parts = split(window, squares);
+    if (enough(parts)) return parts;
+  }
+  std::optional<Split> parts = usual_split(window);
+  for (double squares = kMaxCellsOfMore; parts && squares < aim.most && !enough(*parts);) {
+    squares = std::min(kMore * squares, aim.most);
+    parts = split(window, squares);
+  }
+  return parts;
+}
+
+void append(BoardWindow& window, const std::optional<Split>& parts, double most, Boundary& out) {
   const auto& [u, v, w] = window.local;
   const Extent& extent = window.extent;
   SharpClipper& clipper = window.clipper;
@@ -170,14 +193,13 @@ void append_squares(BoardWindow& window, Boundary& out) {
   const auto unresolved = [&](const SharpPolygon& part) { append_half(part, half_covered(window.local, part)); };
 
   SharpPolygon rest = window.part, strip, above, cell, right_of;
-  if (!(squares_met(window.local, window.board) <= kMaxCells)) {
-    const Split parts = split(window);
-    append_half(parts.behind, parts.rest);
-    rest = parts.front;
+  if (parts) {
+    append_half(parts->behind, parts->rest);
+    rest = parts->front;
   }
   const Range rows = range(rest, v, w, extent.v0, extent.v1);
   const double first = std::floor(rows.low), last = std::floor(rows.high);
-  if (!(last - first < kMaxCells)) {
+  if (!(last - first < most)) {
     if (!rest.empty()) unresolved(rest);
     rest.clear();
   }
@@ -196,7 +218,7 @@ void append_squares(BoardWindow& window, Boundary& out) {
     if (strip.empty()) continue;
     const Range columns = range(strip, u, w, extent.u0, extent.u1);
     const double left = std::floor(columns.low), right = std::floor(columns.high);
-    if (!(right - left < kMaxCells - cells)) {
+    if (!(right - left < most - cells)) {
       unresolved(strip);
       continue;
     }
@@ -216,6 +238,15 @@ void append_squares(BoardWindow& window, Boundary& out) {
     }
   }
   out.area_error += clipper.area_error();
+}
+
+}  // namespace
+
+void append_squares(BoardWindow& window, Boundary& out) { append(window, usual_split(window), kMaxCells, out); }
+
+void append_squares(BoardWindow& window, const SquaresAim& aim, Boundary& out) {
+  // A split may have half as many squares more than it was asked for.
+  append(window, split_for(window, aim), std::max<double>(kMaxCells, 2 * aim.most), out);
 }
 
 }  // namespace moire

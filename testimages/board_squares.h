@@ -43,4 +43,12 @@ double squares_met(const LocalHomography& local, const Polygon& polygon);
 // half covered and is unresolved.
 void append_squares(BoardWindow& window, Boundary& out);
 
+// How far a window of many squares is resolved under a weight of these bounds: until what is left comes to `goal` by
+// them, with `least` squares or more (kMaxCellsOfMore and above: the usual number), or until there are `most`.
+struct SquaresAim {
+  WeightBounds weight;
+  double goal, least, most;
+};
+void append_squares(BoardWindow& window, const SquaresAim& aim, Boundary& out);
+
 }  // namespace moire

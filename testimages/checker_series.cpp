@@ -24,6 +24,8 @@ constexpr double kTailShare = 1e-8;
 // A side that fewer lines cross is integrated between them to its end: an integral towards the horizon takes as long as
 // the first number of lines, its difference to another one, in front of the horizon, longer and to less avail.
 constexpr double kFewLines = 1000, kFewLinesInFront = 20000;
+// What a side with more than kFewLines may come to, as a share of what may be lost to all, without being integrated.
+constexpr double kNotWorth = 0.25;
 
 Dd minor(const Row& p, const Row& q) {
   const Dd pa = p.a, pb = p.b, qa = q.a, qb = q.b;
@@ -226,6 +228,14 @@ void CheckerSeries::lay_out(const Polygon& polygon, double area, const SeriesAim
   for (BoardSide& side : sides_) {
     const double w0 = std::max(side.w0.value(), 0.0), w1 = std::max(side.w1.value(), 0.0);
     const double weight = std::fabs(side.along_j.value / det_.value) * sizes_.size;
+    // A side of many lines that comes to less, all in all, than what may be lost.
+    const double mean = (w0 + w1) / 2 * (1 + 0x1p-20) + w_noise_;
+    if (weight * mean <= kNotWorth * aim_.horizon && side.lines_beyond(w0) > kFewLines) {
+      side.from = 1;
+      side.left_out = mean;
+      left_out += weight * mean;
+      continue;
+    }
     if (w_noise_ > 0x1p-54 * w1) {
       // On the horizon, or W itself is in doubt: coordinates beyond 2^45.
       side.from = 1;
@@ -283,7 +293,8 @@ Bounded CheckerSeries::integrate(const BoardSide& side) const {
   const double w0 = side.w0.value(), w1 = side.w1.value(), depth = std::max(w1, 0.0) + w_noise_;
 
   SideLines smooth(side.s0, side.s1, side, s_noise_, w_noise_), jump(side.j0, side.j1, side, j_noise_, w_noise_);
-  if (side.from >= 1 || !smooth.valid() || !jump.valid()) return {0, largest * sizes_.size * depth};
+  if (side.from >= 1) return {0, largest * sizes_.size * side.left_out};
+  if (!smooth.valid() || !jump.valid()) return {0, largest * sizes_.size * depth};
 
   const WeightTerms::Along along(weight_, side.a, side.b, terms_);
   // Of W, what may be lost to terms that are dropped and to degrees that are.

@@ -19,6 +19,15 @@ constexpr Param kParams[] = {
     numbers("normal", true, "", "towards the inside: degrees from +x towards +y, or a vector [nx, ny]"),
     motion_param()};
 
+// A component times a power of two that makes the larger one less than 1. One that is 2^900 times smaller, or more,
+// counts only where the other's product is 0, and then by its sign: it is kept from losing that to underflow, here and
+// in its products with positions in a pixel, multiples of 2^-53.
+double scaled(double component, int exponent) {
+  constexpr double kLeast = 0x1p-900;
+  const double size = std::ldexp(std::fabs(component), exponent);
+  return component == 0 ? 0 : std::copysign(std::max(size, kLeast), component);
+}
+
 // The unit vector of a direction in degrees, each component right to an ulp: reduced exactly to an octant, then sine
 // and cosine in double-double. Multiples of 90 give 0 and 1 exactly, odd multiples of 45 equal magnitudes.
 Vec2 unit_vector(double degrees) {
@@ -52,7 +61,7 @@ class Edge {
     // Only the direction counts: scaled by a power of two, which is exact, so that no product overflows or vanishes.
     int exponent = 0;
     std::frexp(size, &exponent);
-    n_ = {std::ldexp(normal_.x, -exponent), std::ldexp(normal_.y, -exponent)};
+    n_ = {scaled(normal_.x, -exponent), scaled(normal_.y, -exponent)};
     travel_ = two_prod(n_.x, motion_.x) + two_prod(n_.y, motion_.y);
     travel_error_ = 0x1p-100 * std::fabs(travel_.hi);
   }

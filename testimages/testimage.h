@@ -110,6 +110,14 @@ concept HasWeightIntegral = requires(const S& s, Pixel origin, std::span<const P
   { s.weight_integral(origin, pieces, aim, rest) } -> std::same_as<std::optional<WeightIntegral>>;
 };
 
+// A scene may have detail without end, of which boundary() resolves a usual part, and may resolve more or less of it:
+// as much as makes what is left unresolved come to the aim under a weight of these bounds, or as the aim is worth.
+template <class S>
+concept HasBoundaryUnder = requires(const S& s, Pixel origin, double half_width, const WeightBounds& weight,
+                                    const WeightAim& aim, Boundary& out) {
+  s.boundary_under(origin, half_width, weight, aim, out);
+};
+
 // What strips of a pixel hold of a scene, x and y from the pixel's upper left corner. For every point of the pixel in
 // the closed strip j: outside the scene if x < outer_begin[j] or x > outer_end[j], inside if inner_begin[j] <= x <=
 // inner_end[j]; begin > end: no such x. Numbers may lie beyond the pixel or be infinite, but are no NaN.
@@ -146,6 +154,8 @@ struct TestImageInfo {
   bool (*strips)(const void*, Pixel, std::span<const double>, Strips) noexcept;  // null: has none
   std::optional<WeightIntegral> (*weight_integral)(const void*, Pixel, std::span<const PieceWeight>, const WeightAim&,
                                                    Boundary&);  // null: has none
+  void (*boundary_under)(const void*, Pixel, double, const WeightBounds&, const WeightAim&,
+                         Boundary&);  // null: boundary() alone
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -186,6 +196,12 @@ class TestImage {
                                                 Boundary& rest) const {
     if (info_->weight_integral == nullptr) return std::nullopt;
     return info_->weight_integral(self_.get(), origin, pieces, aim, rest);
+  }
+  // See HasBoundaryUnder.
+  void boundary_under(Pixel origin, double half_width, const WeightBounds& weight, const WeightAim& aim,
+                      Boundary& out) const {
+    if (info_->boundary_under == nullptr) return boundary(origin, half_width, out);
+    info_->boundary_under(self_.get(), origin, half_width, weight, aim, out);
   }
   // See HasStrips.
   bool has_strips() const noexcept { return info_->strips != nullptr; }
@@ -287,6 +303,18 @@ constexpr auto weight_integral_of()
   }
 }
 
+template <class S>
+constexpr auto boundary_under_of()
+    -> void (*)(const void*, Pixel, double, const WeightBounds&, const WeightAim&, Boundary&) {
+  if constexpr (HasBoundaryUnder<S>) {
+    return [](const void* p, Pixel o, double h, const WeightBounds& weight, const WeightAim& aim, Boundary& out) {
+      static_cast<const S*>(p)->boundary_under(o, h, weight, aim, out);
+    };
+  } else {
+    return nullptr;
+  }
+}
+
 template <TestImageType S>
 constexpr TestImageInfo describe(const TestImageText& t) {
   return {t.name,
@@ -305,7 +333,8 @@ constexpr TestImageInfo describe(const TestImageText& t) {
           sweep_of<S>(),
           contains_at_of<S>(),
           strips_of<S>(),
-          weight_integral_of<S>()};
+          weight_integral_of<S>(),
+          boundary_under_of<S>()};
 }
 
 }  // namespace moire

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <system_error>
 #include <vector>
 
 #include "app/definition.h"
 #include "core/args.h"
+#include "core/parallel.h"
 #include "core/sum.h"
 #include "reports/csv.h"
 #include "reports/file.h"
@@ -147,10 +149,16 @@ void write_case_images(const std::string& folder, const Study& study, const Case
   const Grid grid = truth.rows.grid();
   const std::string stem = folder + "/" + image_stem(study, c);
   const std::vector<float> got = dense_got(truth, result), error = dense_error(truth, result);
-  write_exr(stem + ".got.exr", grid, got, case_attributes("got", study, c));
-  write_exr(stem + ".error.exr", grid, error, case_attributes("error", study, c));
-  write_png(stem + ".got.png", reconstruction_preview(grid, got));
-  write_png(stem + ".error.png", error_preview(grid, error, result.active.p995));
+  // Together, unless they are large: then there is memory for one at a time, and the formats have threads of their own.
+  const std::function<void()> writers[kWrittenTogether] = {
+      [&] { write_png(stem + ".error.png", error_preview(grid, error, result.active.p995)); },
+      [&] { write_exr(stem + ".got.exr", grid, got, case_attributes("got", study, c)); },
+      [&] { write_png(stem + ".got.png", reconstruction_preview(grid, got)); },
+      [&] { write_exr(stem + ".error.exr", grid, error, case_attributes("error", study, c)); },
+  };
+  const std::size_t together = got.size() <= kSmallImage ? 1 : kWrittenTogether;  // taken by one thread
+  parallel_for(
+      kWrittenTogether, [&](std::size_t i) { writers[i](); }, together);
 }
 
 void write_spectra_files(const std::string& folder, const Study& study, const Case& c, const Spectra& spectra) {

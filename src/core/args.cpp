@@ -56,7 +56,8 @@ Value checked(std::string_view owner, const Param& p, Value v, const std::string
       const auto names = split(p.choices, '|');
       if (!v.is_text) throw Error(place, what + "must be a word: " + join(names));
       if (std::find(names.begin(), names.end(), v.text) == names.end()) {
-        throw Error(place, what + "cannot be: " + unknown_name("value", v.text, names));
+        throw Error(place, std::string(owner) + ": parameter \"" + std::string(p.name) +
+                               "\": " + unknown_name("value", v.text, names));
       }
       return v;
     }

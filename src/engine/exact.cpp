@@ -4,13 +4,16 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "core/parallel.h"
 #include "core/rounding.h"
 #include "core/sum.h"
 #include "engine/boundary_integral.h"
+#include "engine/inverse_distribution.h"
 #include "engine/radial_integral.h"
 #include "engine/swept_integral.h"
 #include "engine/weight_bounds.h"
@@ -24,6 +27,18 @@ void require_sweepable(const Filter& filter) {
   throw Error("filter \"" + filter.text() + "\"", "a kernel of " + std::to_string(filter.kernel().pieces()) +
                                                       " pieces; exact values of a moving scene take at most " +
                                                       std::to_string(SweptIntegral::kMaxPieces));
+}
+
+// Throws Error: exact values of moving scenes are not known under this radial filter.
+[[noreturn]] void refuse_moving(const Filter& filter) {
+  std::vector<std::string_view> known;
+  for (const FilterInfo* info : filters()) {
+    if (info->symmetry() == Symmetry::separable) known.push_back(info->name);
+  }
+  throw Error(filter.args().place(), "filter \"" + filter.text() +
+                                         "\" is radial, and a moving scene's exact values are known for separable "
+                                         "filters only; choose from " +
+                                         join(known));
 }
 
 // The kernel as scenes may know it.
@@ -46,6 +61,31 @@ Exact integrate(Integral& integral, const Boundary& boundary, double besides) {
   return {integral.value() + 0.0, integral.bound() + besides};
 }
 
+// What is known of every pixel: a scene is 0 or 1 everywhere, so that a value lies between minus the integral of the
+// kernel's negative part and that of its positive one. Their difference is 1 and their sum A, the integral of |k|.
+class KnownRange {
+ public:
+  explicit KnownRange(const Filter& filter) : filter_(filter) {}
+
+  // `e`, or the middle of the range and half of its width where the bound of `e` says no more. Written so that a bound
+  // that is no number counts as such.
+  Exact meet(const Exact& e) {
+    if (e.bound <= 0.5) return e;  // A >= 1
+    if (!half_) half_ = half_width();
+    return e.bound <= *half_ ? e : Exact{0.5, *half_};
+  }
+
+ private:
+  double half_width() const {
+    const InverseDistribution magnitude(filter_);  // in one dimension, of a separable kernel
+    const double a = magnitude.absolute_integral() + magnitude.error();
+    return 0.5 * (filter_.is_radial() ? a : a * a) * (1 + 0x1p-50);
+  }
+
+  const Filter& filter_;
+  std::optional<double> half_;  // found when it is first asked for, which it hardly ever is
+};
+
 // The scene's boundary in one window, integrated. Buffers are kept from pixel to pixel.
 class PixelIntegrator {
  public:
@@ -55,6 +95,7 @@ class PixelIntegrator {
         aim_(aim),
         pieces_(pieces_of(kernel_)),
         bounds_(weight_bounds(kernel_)),
+        known_(filter),
         integral_(filter.kernel()) {
     if (kernel_.degree() == 0 && kernel_.pieces() == 1) {
       const double k = kernel_.k(0);
@@ -72,17 +113,17 @@ class PixelIntegrator {
   Exact operator()(Pixel pixel) {
     if (box_) {
       const std::optional<BoxIntegral> box = scene_.box_integral(pixel, kernel_.radius());
-      if (box) return weighed(*box);
+      if (box) return known_.meet(weighed(*box));
     }
     boundary_.clear();
     const std::optional<WeightIntegral> known = scene_.weight_integral(pixel, pieces_, aim_, boundary_);
     if (!known) scene_.boundary(pixel, kernel_.radius(), boundary_);
     const double besides = doubt(boundary_, bounds_, 2.1 * kernel_.k_max() * kernel_.k_error()) + motion_error_;
     Exact e = swept_ ? integrate(*swept_, boundary_, besides) : integrate(integral_, boundary_, besides);
-    if (!known) return e;
+    if (!known) return known_.meet(e);
     e.value += known->value;
     e.bound += known->bound + kUnit * std::fabs(e.value);
-    return e;
+    return known_.meet(e);
   }
 
  private:
@@ -97,6 +138,7 @@ class PixelIntegrator {
   WeightAim aim_;
   std::vector<PieceWeight> pieces_;
   WeightBounds bounds_;
+  KnownRange known_;
   bool box_ = false;  // the kernel is one constant: its square, and what that may be off by
   double box_weight_ = 0, box_weight_error_ = 0;
   BoundaryIntegral integral_;
@@ -108,35 +150,49 @@ class PixelIntegrator {
 // The same with a radial filter.
 class RadialPixelIntegrator {
  public:
-  RadialPixelIntegrator(const TestImage& scene, const Filter& filter)
-      : scene_(scene), kernel_(filter.radial_kernel()), bounds_(weight_bounds(kernel_)), integral_(kernel_) {
-    if (scene.sweep() != Vec2{}) require_separable(filter, "the exact value of a moving scene");
+  RadialPixelIntegrator(const TestImage& scene, const Filter& filter, const WeightAim& aim)
+      : scene_(scene),
+        aim_(aim),
+        kernel_(filter.radial_kernel()),
+        bounds_(weight_bounds(kernel_)),
+        known_(filter),
+        integral_(kernel_) {
+    if (scene.sweep() != Vec2{}) refuse_moving(filter);
   }
 
   Exact operator()(Pixel pixel) {
     boundary_.clear();
-    scene_.boundary(pixel, kernel_.radius(), boundary_);
-    return integrate(integral_, boundary_, doubt(boundary_, bounds_, kernel_.k_error()));
+    scene_.boundary_under(pixel, kernel_.radius(), bounds_, aim_, boundary_);
+    return known_.meet(integrate(integral_, boundary_, doubt(boundary_, bounds_, kernel_.k_error())));
   }
 
  private:
   const TestImage& scene_;
+  WeightAim aim_;
   const RadialKernel& kernel_;
   WeightBounds bounds_;
+  KnownRange known_;
   RadialIntegral integral_;
   Boundary boundary_;
 };
 
-// Rows in bands of at least so many active pixels, where their end allows: making an integrator takes as long as two
-// or three pixels, and handing out work as much again.
-std::vector<int> bands_of(const ActiveRows& rows) {
-  constexpr std::int64_t kEnough = 64;
-  std::vector<int> begin{0};
-  for (int y = 1; y < rows.grid().height; ++y) {
-    if (rows.first_active(y) - rows.first_active(begin.back()) >= kEnough) begin.push_back(y);
+// Calls visit(x, y, index) for the active pixels with first <= index < last, row-major.
+template <class Visit>
+void for_active(const ActiveRows& rows, std::int64_t first, std::int64_t last, const Visit& visit) {
+  int y = 0;
+  for (int end = rows.grid().height; end - y > 1;) {
+    const int middle = y + (end - y) / 2;
+    (rows.first_active(middle) <= first ? y : end) = middle;
   }
-  begin.push_back(rows.grid().height);
-  return begin;
+  for (std::int64_t index = rows.first_active(y); index < last; ++y) {
+    for (const Run& run : rows.row(y)) {
+      if (run.cover != Cover::partial) continue;
+      const std::int64_t count = run.x1 - run.x0;
+      for (std::int64_t i = std::max<std::int64_t>(0, first - index); i < std::min(count, last - index); ++i)
+        visit(run.x0 + static_cast<int>(i), y, index + i);
+      index += count;
+    }
+  }
 }
 
 }  // namespace
@@ -150,30 +206,34 @@ Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel, con
     case Cover::partial:
       break;
   }
-  return filter.is_radial() ? RadialPixelIntegrator(scene, filter)(pixel) : PixelIntegrator(scene, filter, aim)(pixel);
+  return filter.is_radial() ? RadialPixelIntegrator(scene, filter, aim)(pixel)
+                            : PixelIntegrator(scene, filter, aim)(pixel);
 }
 
 Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows, const WeightAim& aim) {
   Reference reference;
   reference.value.resize(static_cast<std::size_t>(rows.active_pixels()));
   reference.bound.resize(reference.value.size());
-  const std::vector<int> bands = bands_of(rows);
-  parallel_for(bands.size() - 1, [&](std::size_t band) {
-    auto index = static_cast<std::size_t>(rows.first_active(bands[band]));
-    if (rows.first_active(bands[band]) == rows.first_active(bands[band + 1])) return;
+  // Pixels that are found together: making an integrator takes as long as two or three under the box, and handing out
+  // work as much again. Under other filters a few rows near a horizon take most of the time.
+  const bool uneven = scene.info().meets_horizon != nullptr && !filter.is_unit_box();
+  const std::int64_t together = uneven ? 8 : 64;
+  const std::int64_t active = rows.active_pixels();
+  const auto blocks = static_cast<std::size_t>((active + together - 1) / together);
+  // Threads take neighbouring items of a loop, so that blocks from all over the picture are made neighbours.
+  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(blocks))));
+  parallel_for(side * side, [&](std::size_t item) {
+    const std::size_t block = item % side * side + item / side;
+    if (block >= blocks) return;
+    const std::int64_t first = static_cast<std::int64_t>(block) * together;
     const auto fill = [&](auto integrate) {
-      for (int y = bands[band]; y < bands[band + 1]; ++y) {
-        for (const Run& run : rows.row(y)) {
-          if (run.cover != Cover::partial) continue;
-          for (std::int32_t x = run.x0; x < run.x1; ++x, ++index) {
-            const Exact e = integrate({x, y});
-            reference.value[index] = e.value;
-            reference.bound[index] = e.bound;
-          }
-        }
-      }
+      for_active(rows, first, std::min(active, first + together), [&](int x, int y, std::int64_t index) {
+        const Exact e = integrate(Pixel{x, y});
+        reference.value[static_cast<std::size_t>(index)] = e.value;
+        reference.bound[static_cast<std::size_t>(index)] = e.bound;
+      });
     };
-    if (filter.is_radial()) return fill(RadialPixelIntegrator(scene, filter));
+    if (filter.is_radial()) return fill(RadialPixelIntegrator(scene, filter, aim));
     fill(PixelIntegrator(scene, filter, aim));
   });
   Sum squares;

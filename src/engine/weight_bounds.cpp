@@ -59,19 +59,24 @@ WeightBounds weight_bounds(const RadialKernel& kernel) {
   WeightBounds out;
   out.top = kernel.k_max();
   out.slope = kernel.slope_max();
-  // Across the direction of r the second derivative is k' / r.
-  out.pole = kernel.slope_max();
+  double across = 0;
   double before = 0, before_error = 0;  // k' at the knot from the left, and what that may be off by
   for (int p = 0; p < kernel.pieces(); ++p) {
     // The pieces' series meet up to their errors.
     out.jump += kernel.bounds(p).jump + 2 * kernel.k_error();
     const PieceSlopes piece = slopes_of(kernel, p);
     out.curvature = std::max(out.curvature, piece.curvature);
-    if (p > 0) out.kink += std::fabs(piece.begin - before) + piece.error + before_error;
+    const double kink = p > 0 ? std::fabs(piece.begin - before) + piece.error + before_error : 0;
+    out.kink += kink;
+    // Across the direction of r the second derivative is k'(r) / r, and k'(r) is k'(0), the integral of k'' and the
+    // jumps of k' before r.
+    if (p == 0) out.pole = std::fabs(piece.begin) + piece.error;
+    if (p > 0) across += kink / kernel.knots()[static_cast<std::size_t>(p)];
     before = piece.end;
     before_error = piece.error;
   }
   out.kink += std::fabs(before) + before_error;
+  out.curvature = (out.curvature + across) * (1 + 0x1p-40);
   return out;
 }
 

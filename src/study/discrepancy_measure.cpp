@@ -157,7 +157,12 @@ void DiscrepancyChoice::require(std::int64_t n, int dims) const {
   }
 }
 
-Discrepancy DiscrepancyChoice::operator()(PointView points, const Key& key) const {
+std::optional<LineLaw> DiscrepancyChoice::test_lines() const {
+  const bool edge = info_->name == "edge-l2" || info_->name == "edge-l2-printed";
+  return edge && is_monte_carlo() ? std::optional(line_law(info_->name)) : std::nullopt;
+}
+
+Discrepancy DiscrepancyChoice::operator()(PointView points, const Key& key, std::span<const MeasuredLine> lines) const {
   const std::string_view name = info_->name;
   if (!info_->has_3d) points.t = {};
   if (name == "star-linf") return {star_linf(points)};
@@ -166,6 +171,7 @@ Discrepancy DiscrepancyChoice::operator()(PointView points, const Key& key) cons
     const Counted counted = is_without_first() ? Counted::without_first : Counted::all;
     const MonteCarlo mean = name == "star-l2"   ? star_l2_monte_carlo(points, tests(), key, counted)
                             : name == "disk-l2" ? disk_l2_monte_carlo(points, radius(), tests(), key, counted)
+                            : !lines.empty()    ? edge_l2_monte_carlo(points, lines, counted)
                                                 : edge_l2_monte_carlo(points, line_law(name), tests(), key, counted);
     const double value = std::sqrt(mean.mean_square);
     return {value, value > 0 ? mean.standard_error / (2 * value) : 0};

@@ -11,6 +11,7 @@
 #include "core/args.h"
 #include "core/hash.h"
 #include "measure/discrepancy/point_view.h"
+#include "measure/discrepancy/test_lines.h"
 #include "patterns/pattern.h"
 
 namespace moire {
@@ -57,9 +58,13 @@ class DiscrepancyChoice {
   // Throws Error where sets of so many points, or of these dimensions, are not possible.
   void require(std::int64_t n, int dims) const;
 
+  // The law of its random tests, where these are lines.
+  std::optional<LineLaw> test_lines() const;
+
   // Of the set. `key` is for the random tests of Monte Carlo. Precondition: require(). A time that the discrepancy does
-  // not know is not looked at.
-  Discrepancy operator()(PointView points, const Key& key) const;
+  // not know is not looked at. `lines` may hold the tests() lines of test_lines() and the key, which are then not drawn
+  // again; it is not looked at where the tests are others.
+  Discrepancy operator()(PointView points, const Key& key, std::span<const MeasuredLine> lines = {}) const;
 
   // The mean of T_N^2 over the sets of a pattern, where a closed form of it is known: random, jittered and n-rooks.
   std::optional<double> expected_square(const PatternChoice& pattern, std::int64_t n, int dims) const;

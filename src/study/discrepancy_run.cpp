@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
+#include "measure/discrepancy/test_lines.h"
 #include "study/stopwatch.h"
 
 namespace moire {
@@ -29,9 +32,53 @@ PointArrays make_set(const DiscrepancyStudy& study, const DiscrepancyGroup& grou
   return set;
 }
 
+// The random lines of a study's trials: those of a trial are the same for all its sets, patterns and counts.
+class SharedLines {
+ public:
+  explicit SharedLines(const DiscrepancyStudy& study) {
+    std::int64_t bytes = 0;
+    for (const DiscrepancyBlock& block : study.blocks) {
+      for (const DiscrepancyChoice& measure : block.measures) {
+        if (!measure.test_lines()) continue;
+        bytes += block.trials * measure.tests() * kLineBytes;
+        if (bytes > kMostBytes) return;
+        if (find(measure) == laws_.end()) laws_.push_back({*measure.test_lines(), measure.tests(), {}});
+        auto& of_trial = find(measure)->of_trial;
+        of_trial.resize(std::max(of_trial.size(), static_cast<std::size_t>(block.trials)));
+      }
+    }
+  }
+
+  // Those of the measure; none where its tests are no lines, or lines that would take too much memory. Not for one
+  // trial in two threads at a time.
+  std::span<const MeasuredLine> lines(const DiscrepancyChoice& measure, std::uint32_t trial, const Key& key) {
+    const auto law = find(measure);
+    if (law == laws_.end() || trial >= law->of_trial.size()) return {};
+    std::vector<MeasuredLine>& lines = law->of_trial[trial];
+    if (lines.empty()) lines = measured_lines(law->law, key, law->tests);
+    return lines;
+  }
+
+ private:
+  static constexpr std::int64_t kLineBytes = sizeof(MeasuredLine), kMostBytes = std::int64_t{64} << 20;
+  struct Law {
+    LineLaw law;
+    std::int64_t tests;
+    std::vector<std::vector<MeasuredLine>> of_trial;  // empty: not drawn yet
+  };
+
+  std::vector<Law>::iterator find(const DiscrepancyChoice& measure) {
+    return std::find_if(laws_.begin(), laws_.end(), [&](const Law& law) {
+      return measure.test_lines() == law.law && measure.tests() == law.tests;
+    });
+  }
+
+  std::vector<Law> laws_;
+};
+
 // The rows of one set, by measure: those that are due, up to where the run is stopped; others have no cells.
 Table run_trial(const DiscrepancyStudy& study, const DiscrepancyGroup& group, std::uint32_t trial,
-                const std::vector<bool>& due, const std::function<bool()>& stop) {
+                const std::vector<bool>& due, const std::function<bool()>& stop, SharedLines& shared) {
   const DiscrepancyBlock& block = study.blocks[group.block];
   Table rows(block.measures.size());
   if (stop && stop()) return rows;
@@ -44,7 +91,7 @@ Table run_trial(const DiscrepancyStudy& study, const DiscrepancyGroup& group, st
     if (stop && stop()) return rows;
     const DiscrepancyChoice& measure = block.measures[m];
     const Stopwatch measuring;
-    const Discrepancy value = measure(set.view(), key);
+    const Discrepancy value = measure(set.view(), key, shared.lines(measure, trial, key));
     const std::int64_t measure_ns = measuring.nanoseconds();
     Row& row = rows[m];
     row.set("pattern", block.patterns[group.pattern].text());
@@ -75,8 +122,9 @@ Results run(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Di
   std::size_t due = 0, done = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) due += is_due(i);
 
+  SharedLines shared(study);
   // Trials at a time: enough for all threads, few enough that rows are kept soon.
-  const auto together = static_cast<std::size_t>(std::max(1, 2 * thread_count()));
+  const auto together = static_cast<std::size_t>(std::max(1, 4 * thread_count()));
   const auto stopped = [&] { return observer.stop && observer.stop(); };
   for (const DiscrepancyGroup& group : plan.groups) {
     if (stopped()) break;
@@ -99,7 +147,7 @@ Results run(const DiscrepancyStudy& study, const DiscrepancyPlan& plan, const Di
     for (std::size_t begin = 0; begin < trials.size() && !stopped(); begin += together) {
       std::vector<Table> results(std::min(together, trials.size() - begin));
       parallel_for(results.size(), [&](std::size_t i) {
-        results[i] = run_trial(study, group, trials[begin + i], due_of[begin + i], observer.stop);
+        results[i] = run_trial(study, group, trials[begin + i], due_of[begin + i], observer.stop, shared);
       });
       for (std::size_t i = 0; i < results.size(); ++i) {
         for (std::size_t m = 0; m < measures; ++m) {

@@ -67,10 +67,13 @@ Filter make_filter(const std::string& text, const std::string& place, const std:
 std::vector<EstimatorChoice> parse_estimators(const Node& node, const std::vector<Layout>& layouts) {
   std::vector<EstimatorChoice> estimators;
   for (const Node& item : list_of(node, "estimators", "[\"ratio\"]")) {
-    const Estimator estimator = find_estimator(text_of(item, "an entry of estimators"), item.place);
+    const std::string& text = text_of(item, "an entry of estimators");
+    const Estimator estimator = find_estimator(text, item.place);
     const bool is_new = std::none_of(estimators.begin(), estimators.end(),
                                      [&](const EstimatorChoice& known) { return known.value == estimator; });
-    refuse_twice(item, fmt::format("\"{}\"", name_of(estimator)), is_new);
+    const std::string_view name = name_of(estimator);
+    refuse_twice(item, text == name ? fmt::format("\"{}\"", text) : fmt::format("\"{}\", which is \"{}\",", text, name),
+                 is_new);
     for (const Layout layout : layouts) require_layout(estimator, layout, item.place);
     estimators.emplace_back(estimator);
   }

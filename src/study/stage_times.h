@@ -40,6 +40,10 @@ class ActiveCells {
   std::vector<std::uint8_t> needed_;
 };
 
+// What it costs to take every sample by itself. render() has shorter ways, of which these times say nothing: it counts
+// whole cells of samples under a box, and of patterns that are the same in every pixel it adds whole branches of a tree
+// of weights (engine/weight_tree.h).
+//
 // Wall times of one pass over all samples of the cells on the calling thread, in blocks as render() takes them: cells
 // side by side, about 1024 samples, or fewer where a stretch ends. Looking at the clock takes some 25 ns, as long as a
 // short block; it is measured beside each block and taken off the stages, down to 0.

@@ -52,7 +52,9 @@ TEST_SUITE("unit") {
     CHECK(mentions(message("thing:size=1x"), "not a number"));
     CHECK(mentions(message("thing:k=2.5"), "not a whole number"));
     CHECK(mentions(message("thing:k=1e30"), "it must be 1 to 10"));
-    CHECK(mentions(message("thing:mode=fats"), "did you mean fast?"));
+    CHECK(
+        message("thing:mode=fats") ==
+        "here: thing \"thing\": parameter \"mode\": value \"fats\" is not known; did you mean fast? (all: slow, fast)");
     CHECK(mentions(message("thing:k=1,k=2"), "given twice"));
     CHECK(mentions(message("thing:"), "key=value"));
     CHECK(mentions(message("thing:k"), "key=value"));

@@ -271,9 +271,16 @@ TEST_SUITE("unit") {
         find_testimage("disk", ""),
         {{"center", scenes::list({8, 8})}, {"radius", scenes::one(3)}, {"motion", scenes::list({1, 0})}}, {16, 16},
         "test");
-    CHECK_THROWS_WITH_AS(
-        exact_pixel(disk, Filter(parse_spec("jinc", "test")), {5, 8}),
-        "filter \"jinc\": a radial filter; the exact value of a moving scene is for separable ones only", Error);
+    try {
+      exact_pixel(disk, Filter(parse_spec("jinc", "s.toml:4:12")), {5, 8});
+      FAIL("not refused");
+    } catch (const Error& e) {
+      const std::string message = e.what();
+      CHECK(
+          message.starts_with("s.toml:4:12: filter \"jinc\" is radial, and a moving scene's exact values are known "
+                              "for separable filters only; choose from box, "));
+      CHECK(message.find("disk") == std::string::npos);
+    }
   }
 }
 

@@ -92,6 +92,22 @@ TEST_SUITE("unit") {
         }
   }
 
+  TEST_CASE("Monte Carlo over lines that were drawn before gives the same bits") {
+    for (const int n : {1, 13, 300}) {
+      const PointSet set = set_of("random", n, {42, 0});
+      for (const LineLaw law : kLaws)
+        for (const int tests : {1, 1024, 3000}) {
+          const std::vector<MeasuredLine> lines = measured_lines(law, key_of(9), tests);
+          for (const Counted counted : {Counted::all, Counted::without_first}) {
+            const MonteCarlo drawn = edge_l2_monte_carlo(planar(set), law, tests, key_of(9), counted);
+            const MonteCarlo given = edge_l2_monte_carlo(planar(set), lines, counted);
+            CHECK(given.mean_square == drawn.mean_square);
+            CHECK(given.standard_error == drawn.standard_error);
+          }
+        }
+    }
+  }
+
   TEST_CASE("Monte Carlo gives the same bits for any number of threads") {
     const PointSet set = set_of("zaremba", 50);
     const auto all = [&] {

@@ -45,6 +45,9 @@ TEST_SUITE("unit") {
           std::string::npos);
     CHECK(text.find("| `tent` | 16 | 1.00e-01 | 2.50e-01 (x 2.50) | 6.25e-01 (x 6.25) |") != std::string::npos);
     CHECK(markdown_report("s", rows, summary).find(text) != std::string::npos);
+    CHECK(text.find("`importance:form=ratio` divides the signed sum by the sum of the signs") != std::string::npos);
+    CHECK(estimator_comparison(summarize(rows_of({"ratio", "unnormalised"}))).find("sum of the signs") ==
+          std::string::npos);
   }
 
   TEST_CASE("a study of one estimator has no such comparison") {

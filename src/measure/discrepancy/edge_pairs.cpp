@@ -7,6 +7,7 @@
 
 #include "core/instruction_sets.h"
 #include "core/lanes.h"
+#include "measure/discrepancy/wide_distances.h"
 
 namespace moire {
 namespace {
@@ -127,9 +128,6 @@ Dd separations_plain(PairBlock rows, PairBlock columns) {
 #if MOIRE_HAS_AVX
 [[MOIRE_AVX2]] Dd distances_avx2(PairBlock rows, PairBlock columns) {
   return sum_of_tile<Distance, Lanes, LaneMask>(rows, columns);
-}
-[[MOIRE_AVX512]] Dd distances_avx512(PairBlock rows, PairBlock columns) {
-  return sum_of_tile<Distance, WideLanes, WideLaneMask>(rows, columns);
 }
 [[MOIRE_AVX2]] Dd separations_avx2(PairBlock rows, PairBlock columns) {
   return sum_of_tile<Separation, Lanes, LaneMask>(rows, columns);

@@ -10,7 +10,6 @@
 
 #include "core/instruction_sets.h"
 #include "core/parallel.h"
-#include "measure/discrepancy/test_lines.h"
 
 namespace moire {
 namespace {
@@ -167,6 +166,13 @@ MonteCarlo edge_l2_monte_carlo(const PointView& points, LineLaw law, std::int64_
   return run_tests<HalfPlane>(points, tests, counted, [&](std::uint64_t index) {
     const TestLine line = test_line(law, key, index);
     return std::pair(HalfPlane{line}, area_above(line));
+  });
+}
+
+MonteCarlo edge_l2_monte_carlo(const PointView& points, std::span<const MeasuredLine> lines, Counted counted) {
+  return run_tests<HalfPlane>(points, static_cast<std::int64_t>(lines.size()), counted, [&](std::uint64_t index) {
+    const MeasuredLine& line = lines[index];
+    return std::pair(HalfPlane{line.line}, line.area);
   });
 }
 

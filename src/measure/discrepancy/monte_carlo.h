@@ -8,10 +8,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/hash.h"
 #include "measure/discrepancy/line_law.h"
 #include "measure/discrepancy/point_view.h"
+#include "measure/discrepancy/test_lines.h"
 
 namespace moire {
 
@@ -34,6 +36,10 @@ MonteCarlo star_l2_monte_carlo(const PointView& points, std::int64_t tests, cons
 
 // The sides above random lines that hit the unit square (test_lines.h). t is not looked at.
 MonteCarlo edge_l2_monte_carlo(const PointView& points, LineLaw law, std::int64_t tests, const Key& key,
+                               Counted counted = Counted::all);
+
+// The same with lines that were drawn before, at least one: for all `lines` of a law and a key, the same bits.
+MonteCarlo edge_l2_monte_carlo(const PointView& points, std::span<const MeasuredLine> lines,
                                Counted counted = Counted::all);
 
 // Disks on the unit torus: centre uniform, radius as given in (0, 1/2], or uniform in [0, 1/2]. t is not looked at.

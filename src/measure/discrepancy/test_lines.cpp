@@ -75,4 +75,13 @@ double area_above(const TestLine& line) noexcept {
   return (highest + third) / (2 * large);                             // two and two: a trapezium
 }
 
+std::vector<MeasuredLine> measured_lines(LineLaw law, const Key& key, std::int64_t count) {
+  std::vector<MeasuredLine> lines(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines[i].line = test_line(law, key, i);
+    lines[i].area = area_above(lines[i].line);
+  }
+  return lines;
+}
+
 }  // namespace moire

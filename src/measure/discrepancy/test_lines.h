@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/hash.h"
 #include "measure/discrepancy/line_law.h"
@@ -27,5 +28,13 @@ TestLine test_line(LineLaw law, const Key& key, std::uint64_t index) noexcept;
 // Area of the part of the unit square above the line, in [0, 1]; (nx, ny) need not be a unit vector but is not zero.
 // Relative error below 2^-50, however small the area; for products of nx, ny and c in the range of normal numbers.
 double area_above(const TestLine& line) noexcept;
+
+struct MeasuredLine {
+  TestLine line;
+  double area = 0;  // above it
+};
+// Lines 0 to count - 1 with their areas: for many sets of points, since to draw a line costs as much as to test it
+// against hundreds of points.
+std::vector<MeasuredLine> measured_lines(LineLaw law, const Key& key, std::int64_t count);
 
 }  // namespace moire
