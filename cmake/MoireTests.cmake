@@ -13,6 +13,7 @@ function(moire_test name)
   add_executable(${target} ${name}.cpp $<TARGET_OBJECTS:moire_test_main>)
   target_link_libraries(${target} PRIVATE ${arg_LIBS} doctest::doctest moire_flags)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  moire_quick_to_compile(${target})
 
   # A program that is not built counts as a failing test, not as none.
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_tests.cmake)

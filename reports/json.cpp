@@ -1,27 +1,28 @@
 // Results as JSON Lines. The one file that knows nlohmann-json.
 #include "reports/json.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
 
 #include "core/args.h"
 #include "core/error.h"
 #include "reports/file.h"
+#include "study/text_file.h"
 
 namespace moire {
 namespace {
 
 // Of a results file: a million rows of a few kB each.
 constexpr std::uintmax_t kMaxResultsBytes = std::uintmax_t{8} << 30;
-
-std::string json_text(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
+// Of one with several tables: a few kB a case.
+constexpr std::size_t kMaxTablesBytes = std::size_t{512} << 20;
 
 // Numbers are written here and not by the library: its doubles always read back, but are not always the shortest.
 struct ToJson {
@@ -64,7 +65,7 @@ Row row_of(const nlohmann::ordered_json& object, const std::string& place) {
 }
 
 // The text at a JSON pointer, "" when there is none.
-std::string text_at(const nlohmann::ordered_json& object, const char* path) {
+std::string text_of(const nlohmann::ordered_json& object, const char* path) {
   const nlohmann::ordered_json::json_pointer pointer(path);
   return object.contains(pointer) && object[pointer].is_string() ? object[pointer].get<std::string>() : std::string();
 }
@@ -82,18 +83,54 @@ std::string json_header(const Tool& tool, const Host& host, const StudyText& stu
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string json_text(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string json_cell(const Cell& cell) { return std::visit(ToJson{}, cell); }
+
+std::string text_at(std::string_view object, const char* pointer) {
+  return text_of(nlohmann::ordered_json::parse(object, nullptr, false), pointer);
+}
+
 std::string json_row(const Row& row, std::string_view kind) {
   std::string line = "{";
   if (!kind.empty()) line += "\"kind\":" + json_text(kind);
   for (const auto& [name, cell] : row.cells()) {
     if (line.size() > 1) line += ',';
-    line += json_text(name) + ":" + std::visit(ToJson{}, cell);
+    line += json_text(name) + ":" + json_cell(cell);
   }
   return line + "}";
 }
 
+std::string json_lines(const std::string& header, std::initializer_list<JsonTable> tables) {
+  std::string text = header + "\n";
+  for (const JsonTable& table : tables) {
+    for (const Row& row : *table.rows) text += json_row(row, table.kind) + "\n";
+  }
+  return text;
+}
+
+std::string json_object(const std::string& header, std::initializer_list<JsonTable> tables) {
+  std::string text = "{\"header\":" + header;
+  for (const JsonTable& table : tables) {
+    text += ",\n\"" + std::string(table.name) + "\":[";
+    for (const Row& row : *table.rows) text += (&row == table.rows->data() ? "" : ",\n ") + json_row(row, "");
+    text += "]";
+  }
+  return text + "}\n";
+}
+
 Row parse_json_row(std::string_view line, const std::string& place) {
   return row_of(nlohmann::ordered_json::parse(line, nullptr, false), place);
+}
+
+Table parse_json_rows(std::string_view array, const std::string& place) {
+  const auto items = nlohmann::ordered_json::parse(array, nullptr, false);
+  if (!items.is_array()) throw Error(place, "is not a JSON array");
+  Table rows;
+  for (const auto& item : items) rows.push_back(row_of(item, place));
+  return rows;
 }
 
 ResultsFile read_results(const std::string& path) {
@@ -122,7 +159,7 @@ ResultsFile read_results(const std::string& path) {
       found.cut = line;
       break;
     }
-    if (text_at(object, "/kind") != (number == 1 ? "header" : "row")) {
+    if (text_of(object, "/kind") != (number == 1 ? "header" : "row")) {
       throw Error(place, number == 1 ? "is not the header of results" : "is not a row of results; mend or remove it");
     }
     if (number == 1) {
@@ -133,6 +170,28 @@ ResultsFile read_results(const std::string& path) {
     found.whole_bytes += line.size() + 1;
   }
   check();
+  return found;
+}
+
+JsonTables read_json_tables(const std::string& path) {
+  JsonTables found;
+  std::istringstream lines(read_bytes(path, kMaxTablesBytes));
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    const std::string place = path + ":" + std::to_string(number);
+    const auto object = nlohmann::ordered_json::parse(line, nullptr, false);
+    const std::string kind = text_of(object, "/kind");
+    if ((number == 1) != (kind == "header") || kind.empty()) {
+      throw Error(place, number == 1 ? "is not the header of results" : "is not a row of results; mend or remove it");
+    }
+    if (number == 1) {
+      found.header = line;
+      continue;
+    }
+    auto at = std::find_if(found.tables.begin(), found.tables.end(), [&](const auto& t) { return t.first == kind; });
+    if (at == found.tables.end()) at = found.tables.insert(at, {kind, {}});
+    at->second.push_back(row_of(object, place));
+  }
   return found;
 }
 
@@ -147,7 +206,7 @@ std::string header_difference(const std::string& found, const std::string& expec
       {"build", "/tool/version"},  {"build", "/tool/commit"},  {"build", "/tool/build_type"},
       {"build", "/tool/compiler"}, {"build", "/tool/flags"},   {"build", "/tool/fp_contract"}};
   for (const Part& part : kParts) {
-    const std::string there = text_at(a, part.path), here = text_at(b, part.path);
+    const std::string there = text_of(a, part.path), here = text_of(b, part.path);
     if (there == here) continue;
     const std::string_view field = std::string_view(part.path).substr(std::string_view(part.path).rfind('/') + 1);
     return std::string("another ") + part.what + " (" + std::string(field) + " \"" + there + "\", here \"" + here +

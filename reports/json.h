@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "reports/provenance.h"
 #include "study/results.h"
@@ -14,7 +17,8 @@ namespace moire {
 
 // {"kind":"header","schema":"moire.results/1",...}: what the same study, seed and build always give; no line end.
 // `schema` names what the lines after it are.
-inline constexpr std::string_view kResultsSchema = "moire.results/1", kBenchSchema = "moire.bench/1";
+inline constexpr std::string_view kResultsSchema = "moire.results/1", kBenchSchema = "moire.bench/1",
+                                  kStressSchema = "moire.stress/1";
 std::string json_header(const Tool& tool, const Host& host, const StudyText& study,
                         std::string_view schema = kResultsSchema);
 
@@ -22,6 +26,24 @@ std::string json_header(const Tool& tool, const Host& host, const StudyText& stu
 // the same bits, with a point or exponent; NaN, infinities and empty cells are null; text that is not UTF-8 has its
 // bad bytes replaced. `kind`: "row" puts "kind":"row" first; "" leaves it out.
 std::string json_row(const Row& row, std::string_view kind = "row");
+
+// A JSON array of such objects. Throws Error at `place`.
+Table parse_json_rows(std::string_view array, const std::string& place);
+
+// A cell, and a text with its quotes, as they stand in such a line.
+std::string json_cell(const Cell& cell);
+std::string json_text(std::string_view text);
+
+// The text at a JSON pointer (RFC 6901) of a JSON object; "" where there is none, and for what is no object.
+std::string text_at(std::string_view object, const char* pointer);
+
+// Several tables under one header: as lines, told apart by "kind", and as one object, {"header":...,"NAME":[...],...}.
+struct JsonTable {
+  std::string_view name, kind;
+  const Table* rows;
+};
+std::string json_lines(const std::string& header, std::initializer_list<JsonTable> tables);
+std::string json_object(const std::string& header, std::initializer_list<JsonTable> tables);
 
 // The row of such a line, without "kind". Numbers with a point or exponent are doubles, others 64-bit integers.
 // Throws Error at `place` for anything but an object of numbers, texts, booleans and nulls.
@@ -39,6 +61,15 @@ struct ResultsFile {
 // taken for one that was being written as the program was killed. Throws Error with PATH:LINE for anything else that is
 // no header or row, and (Exit::io) for a file that cannot be read.
 ResultsFile read_results(const std::string& path);
+
+// A file of a header and rows of several kinds, such as bench.jsonl: the kinds in the order of their first rows.
+struct JsonTables {
+  std::string header;
+  std::vector<std::pair<std::string, Table>> tables;
+};
+
+// Throws Error with PATH:LINE for what is no header or row, and (Exit::io) for a file that cannot be read.
+JsonTables read_json_tables(const std::string& path);
 
 // In which way the headers of two runs differ, so that their rows do not belong together: "another study (...)",
 // "another build (...)", ...; "" when they do belong together. The kind of machine may differ: rows depend on it in

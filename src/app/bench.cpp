@@ -33,25 +33,11 @@ std::string header_of(const Study& study) {
   return json_header(tool(), host(), {study.name, study.text}, kBenchSchema);
 }
 
-// The header line, then the tables, told apart by "kind".
-std::string json_lines(const Study& study, const Benchmark& benchmark) {
-  std::string text = header_of(study) + "\n";
-  for (const Row& row : benchmark.rows) text += json_row(row) + "\n";
-  for (const Row& row : benchmark.exponents) text += json_row(row, "exponent") + "\n";
-  for (const Row& row : benchmark.scaling) text += json_row(row, "scaling") + "\n";
-  return text;
-}
-
-std::string json_array(const Table& rows) {
-  std::string text;
-  for (const Row& row : rows) text += (text.empty() ? "[" : ",\n ") + json_row(row, "");
-  return text.empty() ? "[]" : text + "]";
-}
-
-std::string json_object(const Study& study, const Benchmark& benchmark) {
-  return "{\"header\":" + header_of(study) + ",\n\"rows\":" + json_array(benchmark.rows) +
-         ",\n\"exponents\":" + json_array(benchmark.exponents) + ",\n\"scaling\":" + json_array(benchmark.scaling) +
-         "}\n";
+// What is written as lines and printed as an object.
+std::string json_of(const Study& study, const Benchmark& benchmark, decltype(json_lines)* form) {
+  return form(header_of(study), {{"rows", "row", &benchmark.rows},
+                                 {"exponents", "exponent", &benchmark.exponents},
+                                 {"scaling", "scaling", &benchmark.scaling}});
 }
 
 void write_files(const std::string& folder, const Study& study, const Benchmark& benchmark) {
@@ -59,7 +45,7 @@ void write_files(const std::string& folder, const Study& study, const Benchmark&
     write_whole(folder + "/" + std::string(name), text);
   };
   write("bench.csv", csv(benchmark.rows));
-  write("bench.jsonl", json_lines(study, benchmark));
+  write("bench.jsonl", json_of(study, benchmark, json_lines));
   write(kPlotFile, log_plot_svg(bench_plot(study.name, benchmark.rows)));
   write("report.md", bench_markdown(study.name, benchmark, tool(), host(), kPlotFile));
 }
@@ -90,7 +76,7 @@ Exit execute(const BenchOptions& options) {
   }
   if (!options.folder.empty()) write_files(options.folder, study, benchmark);
   if (options.json) {
-    print(json_object(study, benchmark));
+    print(json_of(study, benchmark, json_object));
   } else {
     print(bench_text(benchmark, host()));
     if (!options.folder.empty()) print("report: " + options.folder + "/report.md\n");

@@ -12,9 +12,13 @@
 #include "engine/exact.h"
 #include "engine/random_scenes.h"
 #include "oracle/filtered.h"
+#include "stress/views.h"
 
 namespace moire {
 namespace {
+
+using scenes::View;
+using scenes::view_of;
 
 const char* const kFilters[] = {"box",         "box:width=1.7",   "tent",     "bspline", "bspline:order=2", "mitchell",
                                 "catmull-rom", "bspline:order=5", "gaussian", "lanczos", "blackman-harris"};
@@ -30,26 +34,6 @@ std::string describe(const TestImage& image, Pixel pixel, const Filter& filter, 
   }
   text << ", pixel " << pixel.x << ' ' << pixel.y << ", " << filter.text() << ": " << got.value << " +- " << got.bound;
   return text.str();
-}
-
-// A homography, and a place of the image so many pixels below its horizon.
-struct View {
-  std::vector<double> homography;
-  Vec2 at;
-  Pixel pixel() const {
-    return {static_cast<std::int64_t>(std::floor(at.x)), static_cast<std::int64_t>(std::floor(at.y))};
-  }
-};
-
-// `along` the horizon from the point nearest to the principal point, in focal lengths.
-View view_of(const scenes::Camera& camera, double rows, double along) {
-  View view{scenes::homography_of(camera), {}};
-  const std::vector<double>& h = view.homography;
-  const double size = std::hypot(h[6], h[7]), nx = h[6] / size, ny = h[7] / size;
-  const double down = rows - (h[6] * camera.principal.x + h[7] * camera.principal.y + h[8]) / size;
-  along *= camera.focal;
-  view.at = {camera.principal.x + down * nx - along * ny, camera.principal.y + down * ny + along * nx};
-  return view;
 }
 
 // Hard ones by turns: any camera, one-point perspective and resonant columns, 45 degrees, its mirror image, matrices

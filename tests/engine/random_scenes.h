@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes.h"
+#include "stress/views.h"
 
 namespace moire {
 
@@ -54,14 +55,8 @@ inline RandomCase random_disk(Draw& draw, double reach) {
   return {scenes::disk({on.x - r * std::cos(angle), on.y - r * std::sin(angle)}, r), p};
 }
 
-// The point of the plane seen at p, and W there (positive where the plane is seen).
-struct Seen {
-  double u, v, w;
-};
-inline Seen look(const std::vector<double>& h, Vec2 p) {
-  const double w = h[6] * p.x + h[7] * p.y + h[8];
-  return {(h[0] * p.x + h[1] * p.y + h[2]) / w, (h[3] * p.x + h[4] * p.y + h[5]) / w, w};
-}
+using scenes::look;
+using scenes::Seen;
 
 // A finite board through a camera of any pitch, yaw and roll, a mirrored camera or a raw homography. A grid line of
 // the board, or its rim, passes through the pixel `offset` away; the window of half width `reach` holds up to about

@@ -49,6 +49,8 @@ TEST_SUITE("unit") {
     for (const char* room : {"src", "filters", "testimages", "reports"}) {
       for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / room)) {
         if (entry.path().extension() != ".h") continue;
+        // The oracle sees the same scenes and kernels in its own way: its types are in a namespace of their own.
+        if (entry.path().parent_path().filename() == "oracle") continue;
         std::ostringstream text;
         text << std::ifstream(entry.path()).rdbuf();
         twice += add_types(text.str(), fs::relative(entry.path(), root).string(), types);

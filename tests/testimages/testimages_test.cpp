@@ -293,6 +293,18 @@ TEST_SUITE("unit") {
     }
   }
 
+  TEST_CASE("a component of the normal that is too small to change anything decides on the line through the point") {
+    for (const double tiny : {1e-300, -1e-300, 5e-324}) {
+      const TestImage scene = scenes::edge({4.5, 4.5}, Vec2{1e300, tiny}, {9, 9});
+      const std::vector<double> x = {0.5, 0.5, 0.5, std::nextafter(0.5, 0), std::nextafter(0.5, 1)};
+      const std::vector<double> y = {0.25, 0.5, 0.75, 0.5, 0.5};
+      std::vector<std::uint8_t> inside(x.size());
+      const Pixel pixel{4, 4};
+      scene.contains({&pixel, 1}, x, y, inside);
+      CHECK(inside == std::vector<std::uint8_t>{tiny<0, 1, tiny> 0, 0, 1});
+    }
+  }
+
   TEST_CASE("a camera is the homography of its rays") {
     // Ray of (x, y), rolled, pitched and yawed one after the other in 113 bits; u = height X / Y, v = height Z / Y.
     const scenes::Camera c{.focal = 300, .principal = {128, 100}, .height = 2.5, .pitch = 17, .yaw = -12, .roll = 9};

@@ -1,4 +1,4 @@
-// Arithmetic of the oracle: 113-bit numbers for geometry, 64-bit long double for kernels. Tests only.
+// Arithmetic of the oracle: 113-bit numbers for geometry, 64-bit long double for kernels.
 //
 // Translating a scene to a pixel's centre is exact in 113 bits for coordinates up to 2^60, and the rounding that is
 // left, about 1e-34 of the largest coordinate, is 1e-22 pixel even for radii and distances of 1e12.

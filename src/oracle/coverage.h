@@ -13,5 +13,8 @@ namespace moire::oracle {
 Value coverage(const Edge& edge, Pixel pixel, double width);
 Value coverage(const Disk& disk, Pixel pixel, double width);
 Value coverage(const Board& board, Pixel pixel, double width, double squares = 2000);
+// The first two as they are around the pixel's centre.
+Value coverage(const HalfPlane& half_plane, double width);
+Value coverage(const Circle& circle, double width);
 
 }  // namespace moire::oracle

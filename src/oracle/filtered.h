@@ -13,5 +13,7 @@ namespace moire::oracle {
 Value filtered(const Kernel& k, const Edge& edge, Pixel pixel);
 Value filtered(const Kernel& k, const Disk& disk, Pixel pixel);
 Value filtered(const Kernel& k, const Board& board, Pixel pixel);
+// The half-plane as it is around the pixel's centre.
+Value filtered(const Kernel& k, const HalfPlane& half_plane);
 
 }  // namespace moire::oracle

@@ -2,6 +2,9 @@
 #include "oracle/filtered.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "oracle/coverage.h"
 
 namespace moire::oracle {
 namespace {
@@ -80,24 +83,46 @@ Value over_cap(const Kernel& k, const RulePair& rules, Quad c_s, Quad c_t, Quad 
   return sum;
 }
 
-// Rounding of the kernel and of the inner integrals, which integrate() does not see: a few long double ulps of the
-// kernel's largest possible integral.
-void add_kernel_rounding(const Kernel& k, Value& v) { v.error += 0x1p-60L * k.gain() * k.gain(); }
+// Rounding of the kernel and of the inner integrals, which integrate() does not see, over a set of at most that area in
+// the window and a boundary of that length: a few long double ulps of the kernel's largest possible integral. Where
+// there is less to integrate: of the product of its largest values, which are in the middle up to a third, on the area,
+// and on a strip along the boundary where places are rounded, a few ulps of the radius wide.
+void add_rounding(const Kernel& k, Quad area, Quad length, Value& v) {
+  const long double peak = 1.5L * k(0);
+  v.error += 0x1p-60L * std::min(k.gain() * k.gain(), narrow(area + widen(k.radius()) * length / 4) * peak * peak);
+}
+
+// At least the length of a polygon's sides.
+Quad outline(const Polygon& p) {
+  Quad sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Point &a = p[i], &b = p[(i + 1) % p.size()];
+    sum += abs(b.x - a.x) + abs(b.y - a.y);
+  }
+  return sum;
+}
 
 }  // namespace
 
-Value filtered(const Kernel& k, const Edge& edge, Pixel pixel) {
-  const Polygon p = clip(around(edge, pixel), widen(k.radius()));
-  Value v;
-  if (p.size() >= 3) v = over_polygon(k, p);
-  add_kernel_rounding(k, v);
+Value filtered(const Kernel& k, const Edge& edge, Pixel pixel) { return filtered(k, around(edge, pixel)); }
+
+Value filtered(const Kernel& k, const HalfPlane& half_plane) {
+  const Polygon p = clip(half_plane, widen(k.radius()));
+  if (p.size() < 3) return {};
+  Value v = over_polygon(k, p);
+  add_rounding(k, area(p), outline(p), v);
   return v;
 }
 
 Value filtered(const Kernel& k, const Board& board, Pixel pixel) {
   Value v;
-  for (const Polygon& p : clip(board, pixel, widen(k.radius()))) v += over_polygon(k, p);
-  add_kernel_rounding(k, v);
+  Quad seen = 0, lines = 0;
+  for (const Polygon& p : clip(board, pixel, widen(k.radius()))) {
+    v += over_polygon(k, p);
+    seen += area(p);
+    lines += outline(p);
+  }
+  add_rounding(k, seen, lines, v);
   return v;
 }
 
@@ -115,7 +140,9 @@ Value filtered(const Kernel& k, const Disk& disk, Pixel pixel) {
     v += over_cap(k, rules, c.center.x, c.center.y, r, flat, wide, side);
     v += over_cap(k, rules, c.center.y, c.center.x, r, wide, flat, side);
   }
-  add_kernel_rounding(k, v);
+  const Value share = coverage(c, static_cast<double>(2 * k.radius()));
+  // A convex figure's boundary in the window is no longer than the window's.
+  add_rounding(k, 4 * half * half * widen(share.value + share.error), min(7 * r, 8 * half), v);
   return v;
 }
 

@@ -147,13 +147,16 @@ Value over_rings(const RingKernel& k, std::vector<long double> bends, const F& a
   bends.insert(bends.end(), k.breaks().begin(), k.breaks().end());
   bends = graded(std::move(bends));
   Value v;
+  long double area = 0;  // of the rings that are met
   for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
     const long double a = std::max(bends[i], 0.0L), b = std::min(bends[i + 1], k.radius());
     if (!(a < b)) continue;
     if (angle((a + b) / 2) == 0) continue;  // no scene in these rings: `angle` is 0 between two bends, or nowhere
+    area += kPi * (b - a) * (b + a);
     v += between([&](long double r) { return k(r) * r * angle(r); }, a, b);
   }
-  v.error += 0x1p-58L * k.gain();  // rounding of the kernel, which integrate() does not see
+  // Rounding of the kernel, which integrate() does not see: of all of it, or of its largest values in those rings.
+  v.error += 0x1p-58L * std::min(k.gain(), 1.5L * std::fabs(k(0)) * area);
   return v;
 }
 
@@ -285,6 +288,11 @@ Value filtered_per_square(const RingKernel& k, const Disk& disk, Pixel pixel) {
     beyond.push_back(narrow((widen(knot) - d) * (widen(knot) + d) / (d * radius)));
     const long double c = (beyond.back() - small) / 2;
     if (std::fabs(c) < 1) turns.push_back(std::acos(c));
+    // Rays along the knot circle: c^2 + small m is 0 or next to it, and its root bends.
+    const long double touch = std::sqrt(std::fabs(small * beyond.back()));
+    if (touch >= 1) continue;
+    turns.push_back(std::acos(touch));
+    turns.push_back(std::acos(-touch));
   }
   const Rule along(24);
   const auto one_ray = [&](long double angle) {
@@ -319,7 +327,7 @@ Value filtered_per_square(const RingKernel& k, const Disk& disk, Pixel pixel) {
   Value v;
   for (std::size_t i = 0; i + 1 < turns.size(); ++i)
     if (turns[i] < turns[i + 1]) v += integrate(kRules, one_ray, turns[i], turns[i + 1]);
-  v.error += 0x1p-56L * k.gain() * std::fabs(k(k.breaks()[1] / 2));
+  if (v.error > 0) v.error += 0x1p-56L * k.gain() * std::fabs(k(k.breaks()[1] / 2));  // 0: no node met the support
   return v;
 }
 

@@ -11,10 +11,12 @@ namespace {
 // The area between a chord and its arc of a quarter circle at most: r^2/2 (theta - sin theta), theta = 2 asin(s),
 // s = chord / (2 r). Small angles by the series of asin in 113 bits; the others come with small radii, where long
 // double is good for r^2 1e-18.
-Quad segment(Quad radius, Quad chord) {
+// `rounding` grows by what asin may be off by.
+Quad segment(Quad radius, Quad chord, Quad& rounding) {
   const Quad s = chord / (2 * radius);
   if (s > Quad(1) / 8) {
     const long double half = std::asin(narrow(s));
+    rounding += radius * radius * widen(0x1p-63L * half);
     return radius * radius * (widen(half) - s * sqrt((1 - s) * (1 + s)));
   }
   // asin s - s sqrt(1 - s^2) = sum over n >= 1 of s^(2n+1) c_n [1/(2n+1) + 1/(2n-1)], c_n = (2n-1)!!/(2n)!!:
@@ -30,8 +32,10 @@ Quad segment(Quad radius, Quad chord) {
 
 }  // namespace
 
-Value coverage(const Edge& edge, Pixel pixel, double width) {
-  const HalfPlane h = around(edge, pixel);
+namespace {
+
+// `lost`: what the half-plane's offset may be off by.
+Value coverage(const HalfPlane& h, double width, Quad lost) {
   const Quad w = widen(width), a = max(abs(h.nx), abs(h.ny)), b = min(abs(h.nx), abs(h.ny));
   const Quad whole = w * (a + b);
   const Quad corner = whole / 2 + h.offset;  // at the corner that is inside first; the opposite one has corner - whole
@@ -47,11 +51,27 @@ Value coverage(const Edge& edge, Pixel pixel, double width) {
     part = w * (corner - w * b / 2) / a;
   else
     part = w * w - cut_corner(whole - corner);
-  return {narrow(part / (w * w)), 1e-19L};
+  // The line's shift by `lost` and by the roundings of `corner`, times its length, which is that of the cut at most:
+  // 1/a for each unit across, no longer than the window. Then the last rounding, to 64 bits.
+  lost += widen(0x1p-111L) * (whole + abs(h.offset));
+  const Quad deep = max(min(corner, whole - corner), 0) + lost;
+  const Quad across = deep < w * b ? deep / b : w;
+  return {narrow(part / (w * w)), narrow((lost * across / a + part * widen(0x1p-63L)) / (w * w))};
 }
 
-Value coverage(const Disk& disk, Pixel pixel, double width) {
-  const Circle c = around(disk, pixel);
+}  // namespace
+
+Value coverage(const HalfPlane& half_plane, double width) { return coverage(half_plane, width, 0); }
+
+Value coverage(const Edge& edge, Pixel pixel, double width) {
+  const Quad terms = abs(relative(edge.through[0], pixel.x) * widen(edge.normal[0])) +
+                     abs(relative(edge.through[1], pixel.y) * widen(edge.normal[1]));
+  return coverage(around(edge, pixel), width, widen(0x1p-111L) * terms);
+}
+
+Value coverage(const Disk& disk, Pixel pixel, double width) { return coverage(around(disk, pixel), width); }
+
+Value coverage(const Circle& c, double width) {
   const Quad half = widen(width) / 2, r = c.radius;
   const auto reach = [&](Quad d) { return sqrt((r - d) * (r + d)); };  // half chord at distance d from the centre
   const Quad top = max(-half, c.center.y - r), bottom = min(half, c.center.y + r);
@@ -60,7 +80,7 @@ Value coverage(const Disk& disk, Pixel pixel, double width) {
   for (const Quad side : {-half, half})
     for (const Quad sign : {Quad(-1), Quad(1)}) cut.push_back(c.center.y + sign * reach(side - c.center.x));
   std::sort(cut.begin(), cut.end());
-  Quad part = 0;
+  Quad part = 0, rounding = 0;
   for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
     const Quad y1 = max(cut[i], top), y2 = min(cut[i + 1], bottom);
     if (y1 >= y2) continue;
@@ -69,13 +89,16 @@ Value coverage(const Disk& disk, Pixel pixel, double width) {
     if (c.center.x - mid >= half || c.center.x + mid <= -half) continue;
     const Quad s1 = reach(y1 - c.center.y), s2 = reach(y2 - c.center.y);
     const Quad chord = sqrt((y2 - y1) * (y2 - y1) + (s2 - s1) * (s2 - s1));
-    const Quad arc = (y2 - y1) * (s1 + s2) / 2 + segment(r, chord);
+    const Quad arc = (y2 - y1) * (s1 + s2) / 2 + segment(r, chord, rounding);
     part += c.center.x + mid < half ? c.center.x * (y2 - y1) + arc : half * (y2 - y1);
     part -= c.center.x - mid > -half ? c.center.x * (y2 - y1) - arc : -half * (y2 - y1);
   }
-  // Only asin rounds at 64 bits: at most 12 segments, each to r^2 s 5e-20, and r s <= 0.71 width.
+  // Places on the circle are right across it to some roundings of its coordinates; where a cut between two pieces is
+  // off by more, along the circle, both pieces have the same formula. Each row of pieces is used twice. Then the last
+  // rounding, to 64 bits.
+  rounding = 2 * rounding + widen(0x1p-107L) * (r + abs(c.center.x) + abs(c.center.y)) * (bottom - top);
   const Quad square = 4 * half * half;
-  return {narrow(part / square), 3e-18L * narrow(min(1, r * r / square))};
+  return {narrow(part / square), narrow((rounding + abs(part) * widen(0x1p-63L)) / square)};
 }
 
 Value coverage(const Board& board, Pixel pixel, double width, double squares) {
