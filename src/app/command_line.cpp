@@ -22,7 +22,8 @@ namespace moire {
 namespace {
 
 constexpr int kMaxRepeats = 1000;
-constexpr int kMaxSets = 1'000'000;  // of a pattern, as in studies
+constexpr std::int64_t kMaxCases = 1'000'000'000;  // of a family of hard cases: days of work
+constexpr int kMaxSets = 1'000'000;                // of a pattern, as in studies
 
 // The commands. Names of options are given once, in the two functions of a command.
 
@@ -97,7 +98,7 @@ CommandWords exact_words(CLI::App& app) {
   w.option("-o", "FILE", "write the image (float32 EXR)");
   w.option("--pixels", "FILE", "lines x,y, any 64-bit integers; prints CSV x,y,value,bound");
   w.option("--accuracy", "A",
-           "bound aimed at on checkerboards under separable filters, 1e-15 to 0.1: a larger one takes less time; "
+           "bound aimed at on checkerboards, 1e-15 to 0.1: a larger one takes less time; "
            "default 1e-12, and 1e-9 where a window meets the horizon");
   return w;
 }
@@ -267,6 +268,56 @@ Command bench_options(const CommandWords& w) {
   return options;
 }
 
+CommandWords stress_words(CLI::App& app) {
+  CommandWords w(app, "stress", "Hunt for the worst error of everything that is computed, against higher precision",
+                 "moire stress -o out/stress");
+  w.option("--cases", "N", "cases of each family; families that cost much run a part of them", "2000");
+  w.option("--seed", "S", "which cases", "1");
+  w.option("--family", "NAME[,NAME...]", "these families alone");
+  w.option("--case", "I", "with one family: this case alone, in full");
+  w.option("-o", "DIR", "write stress.jsonl, stress.csv, growth.csv, stress.svg and report.md; DIR is made");
+  w.option("--threads", "N", "threads, 1 to 1024; default: as many as there are cores");
+  w.flag("--json", "as a JSON object, all digits");
+  return w;
+}
+
+Command stress_options(const CommandWords& w) {
+  StressOptions options;
+  options.cases = static_cast<std::uint64_t>(w.integer("--cases", 1, kMaxCases));
+  options.seed = w.seed();
+  if (w.has("--family")) options.families = listed(w.text("--family"));
+  if (w.has("--case")) {
+    if (options.families.size() != 1) throw Error("--case", "needs one family; add --family NAME");
+    w.refuse("--case", {"-o"});
+    options.only_case = static_cast<std::uint64_t>(w.integer("--case", 0, kMaxCases));
+  }
+  options.folder = w.text("-o");
+  options.threads = w.threads();
+  options.json = w.is_set("--json");
+  if (options.only_case && options.json) throw Error("--json", "does not go with --case, which is for a person");
+  return options;
+}
+
+CommandWords report_words(CLI::App& app) {
+  CommandWords w(app, "report", "One page of runs that are there: rankings, charts and images in a single HTML file",
+                 "moire report out/quick out/noise -o report.html");
+  w.positionals("RUN", "folders of moire run, bench or stress, or their .jsonl files");
+  w.option("-o", "FILE", "the page; default: index.html in the folder of the first run");
+  w.option("--budget", "MB", "size of the page, 0.5 to 1000 million bytes: images that do not fit are listed", "10");
+  w.option("--figures", "DIR", "write each chart as SVG, by Chromium; the page itself only with -o");
+  return w;
+}
+
+Command report_options(const CommandWords& w) {
+  ReportOptions options;
+  options.runs = w.list("RUN");
+  if (options.runs.empty()) throw Error(w.place(), "RUN is missing; see moire report --help");
+  options.out = w.text("-o");
+  options.figures = w.text("--figures");
+  options.budget = static_cast<std::size_t>(1e6 * w.number("--budget", 0.5, 1000));
+  return options;
+}
+
 // The first word where a command belongs.
 [[noreturn]] void refuse_command(const CLI::App& app, const std::vector<std::string_view>& commands) {
   const std::vector<std::string> words = app.remaining();
@@ -292,7 +343,8 @@ Command parse_command_line(int argc, const char* const* argv) {
                      {render_words(app), render_options},     {exact_words(app), exact_options},
                      {points_words(app), points_options},     {filters_words(app), filters_options},
                      {spectrum_words(app), spectrum_options}, {discrepancy_words(app), discrepancy_options},
-                     {bench_words(app), bench_options}};
+                     {bench_words(app), bench_options},       {stress_words(app), stress_options},
+                     {report_words(app), report_options}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

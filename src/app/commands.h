@@ -2,6 +2,7 @@
 // throws Error for everything that is wrong.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -97,8 +98,26 @@ struct BenchOptions {
   bool json = false;
 };
 
-using Command = std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions,
-                             FiltersOptions, SpectrumOptions, DiscrepancyOptions, BenchOptions>;
+struct StressOptions {
+  std::vector<std::string> families;       // none: all
+  std::uint64_t cases = 2000;              // of each family, before its share
+  std::optional<std::uint64_t> only_case;  // with one family: this case alone, in full
+  std::uint64_t seed = 1;
+  std::string folder;  // of the files, "": none
+  int threads = 0;     // 0: as many as there are cores
+  bool json = false;
+};
+
+struct ReportOptions {
+  std::vector<std::string> runs;  // folders or .jsonl files, at least one
+  std::string out;                // path of the page; "": index.html in the folder of the first run
+  std::string figures;            // folder for its charts as SVG, "": none
+  std::size_t budget = 0;         // bytes of the page
+};
+
+using Command =
+    std::variant<TextOptions, ListOptions, RunOptions, RenderOptions, ExactOptions, PointsOptions, FiltersOptions,
+                 SpectrumOptions, DiscrepancyOptions, BenchOptions, StressOptions, ReportOptions>;
 
 Exit execute(const TextOptions& options);
 Exit execute(const ListOptions& options);
@@ -110,5 +129,7 @@ Exit execute(const FiltersOptions& options);
 Exit execute(const SpectrumOptions& options);
 Exit execute(const DiscrepancyOptions& options);
 Exit execute(const BenchOptions& options);
+Exit execute(const StressOptions& options);
+Exit execute(const ReportOptions& options);
 
 }  // namespace moire

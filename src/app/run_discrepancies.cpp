@@ -13,6 +13,7 @@
 
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/page.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
 #include "core/error.h"
@@ -29,7 +30,8 @@
 namespace moire {
 namespace {
 
-constexpr auto kReports = std::to_array<std::string_view>({"results.csv", "summary.csv", "slopes.csv", "report.md"});
+constexpr auto kReports =
+    std::to_array<std::string_view>({"results.csv", "summary.csv", "slopes.csv", "report.md", "index.html"});
 
 // Larger sets are no dots any more.
 constexpr int kMostDrawn = 2048;
@@ -169,6 +171,7 @@ Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   write_whole(report, discrepancy_markdown(study.name, summary, pictures));
   print(discrepancy_text(summary, ::isatty(STDOUT_FILENO) != 0));
   print("report: " + report + "\n");
+  write_run_page({folder.header(), folder.path(), std::move(outcome.rows), page_tables(summary)});
   return Exit::ok;
 }
 

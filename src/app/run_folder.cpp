@@ -20,7 +20,8 @@ void remove_parts(const std::string& folder) {
   std::error_code ignored;
   for (std::filesystem::directory_iterator it(folder, ignored), end; it != end; it.increment(ignored)) {
     const std::string name = it->path().filename().string();
-    for (const std::string_view ending : {".exr.part", ".png.part", ".csv.part", ".md.part", ".jsonl.part"}) {
+    for (const std::string_view ending :
+         {".exr.part", ".png.part", ".csv.part", ".md.part", ".html.part", ".jsonl.part"}) {
       if (name.ends_with(ending) && it->is_regular_file(ignored)) std::filesystem::remove(it->path(), ignored);
     }
   }
@@ -39,9 +40,9 @@ RunFolder::RunFolder(const RunOptions& options, const StudyText& study, const Pl
   if (images) make_folder(folder_ + "/images");
   remove_parts(folder_);
   remove_parts(folder_ + "/images");
-  const std::string header = json_header(tool(), host(), study);
+  header_ = json_header(tool(), host(), study);
   if (options.resume) {
-    earlier_ = find_earlier(results_file_, header, planned);
+    earlier_ = find_earlier(results_file_, header_, planned);
     if (!earlier_.file.cut.empty()) {
       say(results_file_,
           fmt::format("the last line was cut after {} bytes, and is left out", earlier_.file.cut.size()));
@@ -50,9 +51,10 @@ RunFolder::RunFolder(const RunOptions& options, const StudyText& study, const Pl
   goes_on_ = !earlier_.file.header.empty();
   const bool replaces = !options.resume && std::filesystem::is_regular_file(results_file_);
   if (goes_on_) {
+    header_ = earlier_.file.header;  // the machine may be of another kind
     results_.emplace(results_file_, earlier_.file);
   } else {
-    results_.emplace(results_file_, header);
+    results_.emplace(results_file_, header_);
     for (const std::string_view name : reports) {
       std::error_code ignored;  // a file that cannot be removed cannot be written either, which is told then
       std::filesystem::remove(file(name), ignored);

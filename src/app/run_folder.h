@@ -24,6 +24,8 @@ class RunFolder {
             std::span<const std::string_view> reports, bool images);
 
   const std::string& path() const { return folder_; }
+  // The line that begins results.jsonl.
+  const std::string& header() const { return header_; }
   std::string file(std::string_view name) const { return folder_ + "/" + std::string(name); }
   // Whether an earlier run goes on.
   bool goes_on() const { return goes_on_; }
@@ -34,7 +36,7 @@ class RunFolder {
   void finish(const Table& rows, bool complete);
 
  private:
-  std::string study_, folder_, results_file_;
+  std::string study_, folder_, results_file_, header_;
   std::size_t planned_;
   std::optional<FolderLock> lock_;
   Earlier earlier_;

@@ -12,6 +12,7 @@
 #include "app/image_files.h"
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/page.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
 #include "core/parallel.h"
@@ -28,14 +29,16 @@ namespace {
 
 constexpr auto kReports =
     std::to_array<std::string_view>({"results.csv", "summary.csv", "filters.csv", "filter_ranking.csv",
-                                     "noise_ranking.csv", "correlations.csv", "report.md"});
+                                     "noise_ranking.csv", "correlations.csv", "report.md", "index.html"});
 
 void print_plan(const Study& study, const std::vector<Case>& cases) {
   print(fmt::format("# {} cases: scene pattern spp filter estimator trial [layout]\n", cases.size()));
   for (const Case& c : cases) print(describe(study, c) + "\n");
 }
 
-void write_reports(const std::string& folder, const Study& study, const Table& rows) {
+// Takes the rows; the page is the last file of a run.
+void write_reports(const RunFolder& run, const Study& study, Table rows) {
+  const std::string& folder = run.path();
   const Summary summary = summarize(rows);
   write_whole(folder + "/results.csv", csv(rows));
   write_whole(folder + "/summary.csv", csv(summary.rows));
@@ -51,6 +54,8 @@ void write_reports(const std::string& folder, const Study& study, const Table& r
   write_whole(report, markdown_report(study.name, rows, summary, filters));
   print(terminal_tables(summary, ::isatty(STDOUT_FILENO) != 0));
   print("report: " + report + "\n");
+  auto tables = page_tables(rows, summary, filters);
+  write_run_page({run.header(), folder, std::move(rows), std::move(tables)});
 }
 
 // The key of a row, as describe() writes that of its case.
@@ -100,7 +105,7 @@ Exit run_study(const RunOptions& options, const Study& study) {
     outcome = run(study, cases, observer, folder.take_rows());
   }
   folder.finish(outcome.rows, outcome.complete);
-  write_reports(folder.path(), study, outcome.rows);
+  write_reports(folder, study, std::move(outcome.rows));
   return Exit::ok;
 }
 

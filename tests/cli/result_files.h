@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "program.h"
+#include "reports/page_reading.h"
 
 namespace moire::cli {
 
-// File name to bytes, times removed: each time_* value of JSON and of CSV becomes T.
+// File name to bytes, times removed: each time_* value of JSON and of CSV becomes T, and of a page there is the data
+// without what comes of times.
 inline std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -50,6 +52,7 @@ inline std::map<std::string, std::string> files_of(const std::filesystem::path& 
       }
       text = cleaned;
     }
+    if (name == "index.html") text = page::without_times(page::data_of(text));
     files[name] = text;
   }
   return files;
