@@ -244,9 +244,9 @@ ExactCase make_case(CaseKey key) {
 extern const Family boards;
 constinit const Family boards = {
     .name = "boards",
-    .title = "Checkerboards to and across their horizon, rolled, grazing, nearly singular, far from the origin",
+    .title = "checkerboards to and across their horizon, rolled, grazing, nearly singular, far from the origin",
     .quantity = "exact value of a pixel under any filter",
-    .severity = "condition of the homography in the window: product of its rows' sizes over its determinant",
+    .severity = "condition of the homography",
     .claim = "the printed bound of `moire exact --pixels`",
     .share = 1,
     .run = [](CaseKey key) { return run(make_case(key)); },

@@ -114,9 +114,9 @@ ExactCase make_case(CaseKey key) {
 extern const Family disks;
 constinit const Family disks = {
     .name = "disks",
-    .title = "Disks of radius 1e-12 to 1e12, tangent, centred on corners, far from the origin, moving",
+    .title = "disks of radius 1e-12 to 1e12, tangent, centred on corners, far from the origin, moving",
     .quantity = "exact value of a pixel under any filter",
-    .severity = "largest of radius, 1 / radius and coordinates (pixels)",
+    .severity = "largest of radius, 1 / radius, coordinates",
     .claim = "the printed bound of `moire exact --pixels`; a tiny disk's shrinks with its area",
     .share = 1,
     .run = [](CaseKey key) { return run(make_case(key)); },

@@ -157,9 +157,9 @@ ExactCase make_case(CaseKey key) {
 extern const Family edges;
 constinit const Family edges = {
     .name = "edges",
-    .title = "Half-planes along sides and diagonals, through corners, far from the origin, moving",
+    .title = "half-planes along sides and diagonals, through corners, far from the origin, moving",
     .quantity = "exact value of a pixel under any filter",
-    .severity = "largest coordinate (pixels) over the angle to the nearest axis or diagonal (radians)",
+    .severity = "coordinate over angle to axis or diagonal, px",
     .claim = "the printed bound of `moire exact --pixels`",
     .share = 1,
     .run = [](CaseKey key) { return run(make_case(key)); },

@@ -57,7 +57,7 @@ struct Family {
   std::string_view name;      // "edges": what --family takes
   std::string_view title;     // what the cases are, for the table
   std::string_view quantity;  // what is computed, and its unit
-  std::string_view severity;  // what severity measures, and its unit
+  std::string_view severity;  // what severity measures, and its unit: short, it stands below an axis
   std::string_view claim;     // where the bound comes from
   double share = 1;           // cases run per case asked for, in (0, 1]: those that cost much run less often
   Outcome (*run)(CaseKey key) = nullptr;

@@ -5,11 +5,11 @@ import { colourKey } from "../controls";
 import { chartGrid } from "./convergence";
 import { el } from "../dom";
 import type { Figure, Page, Section } from "../page";
-import type { Row, RunData, Table } from "../run_data";
+import type { Row, RunData } from "../run_data";
 import { distinct, num, str } from "../run_data";
 import { SeriesStyles } from "../series_style";
 import type { TableColumn } from "../table";
-import { narrowing, plainColumns, sortableTable } from "../table";
+import { countColumn, narrowing, numberColumn, plainColumns, sortableTable, textColumn } from "../table";
 import { number, slug } from "../text";
 
 const kErrors: Record<string, string> = {
@@ -55,28 +55,37 @@ function families(data: RunData): string[] {
   return distinct((data.table("growth")?.rows ?? []).map((row) => str(row, "family")));
 }
 
-const kColumns = [
-  ...["family", "title", "pass", "failures", "cases", "error_over_bound", "largest_error", "largest_relative"],
-  ...["largest_ulps", "naive_error", "quantity", "words"],
-];
-
-/** What most readers look for, where the table has it; the CSV has all. */
-function columnsOf(stress: Table): TableColumn[] {
-  return plainColumns({
-    ...stress,
-    columns: kColumns.filter((name) => stress.columns.includes(name)),
-  });
+/** What the table shows; the CSV has all columns. */
+function columnsOf(): TableColumn[] {
+  const verdict: TableColumn = {
+    title: "verdict",
+    numeric: false,
+    sort: (row) => str(row, "pass"),
+    cell: (row) => (str(row, "pass") === "true" ? "pass" : el("strong", { class: "failed" }, "FAIL")),
+  };
+  return [
+    textColumn("family"),
+    countColumn("cases"),
+    numberColumn("largest_error", "worst error"),
+    numberColumn("largest_relative", "relative"),
+    numberColumn("largest_ulps", "ulps"),
+    numberColumn("error_over_bound", "of its bound"),
+    numberColumn("bound", "bound there"),
+    numberColumn("naive_error", "plain formula"),
+    verdict,
+  ];
 }
 
-/** Pass and fail in words, a failed one marked. */
-function withVerdicts(columns: TableColumn[]): TableColumn[] {
-  return columns.map((column) =>
-    column.title !== "pass"
-      ? column
-      : {
-          ...column,
-          cell: (row) => (str(row, "pass") === "true" ? "pass" : el("strong", { class: "failed" }, "FAIL")),
-        },
+/** What a family is, what it claims, and the case that came closest to its bound. */
+function familyNotes(row: Row): HTMLElement {
+  const command = `moire stress --family ${str(row, "family")} --case ${str(row, "case")} --seed ${str(row, "seed")}`;
+  return el(
+    "details",
+    {},
+    el("summary", {}, el("strong", {}, str(row, "family")), `: ${str(row, "title")}`),
+    el("p", {}, `Value: ${str(row, "quantity")}. Bound: ${str(row, "claim")}.`),
+    el("p", {}, "Closest to its bound: ", el("code", {}, command), ":"),
+    el("p", {}, el("code", {}, str(row, "words"))),
   );
 }
 
@@ -84,8 +93,8 @@ export const stability: Section = {
   id: "stability",
   title: () => "Stability",
   lead: () =>
-    "Hard cases for the exact values, each against a computation in higher precision. " +
-    "The error must stay below the stated bound; the plain formula shows what care is worth.",
+    "Hard cases of everything that is computed, each against a computation in higher precision. " +
+    "An error must stay within its stated bound; the plain formula in double arithmetic shows what care is worth.",
   present: (data) => data.table("stress") !== undefined || data.table("growth") !== undefined,
 
   render(host, page) {
@@ -96,9 +105,9 @@ export const stability: Section = {
         sortableTable(stress, {
           name: "stress",
           caption: "Worst cases of each family",
-          columns: withVerdicts(columnsOf(stress)),
-          filters: narrowing(stress, ["family", "pass"]),
+          columns: columnsOf(),
         }),
+        ...stress.rows.map(familyNotes),
       );
     }
     const growth = data.table("growth");
