@@ -93,6 +93,24 @@ std::string text_at(std::string_view object, const char* pointer) {
   return text_of(nlohmann::ordered_json::parse(object, nullptr, false), pointer);
 }
 
+void check_header(std::string_view header, const std::string& place) {
+  const auto object = nlohmann::ordered_json::parse(header, nullptr, false);
+  if (!object.is_object()) throw Error(place, "is not the header of results");
+  constexpr const char* kTexts[] = {"/study/name",  "/study/text",      "/study/sha256",  "/tool/version",
+                                    "/tool/commit", "/tool/build_type", "/tool/compiler", "/tool/flags",
+                                    "/host/cpu",    "/host/os"};
+  const auto lacks = [&](std::string path, const char* type) {
+    std::replace(path.begin(), path.end(), '/', '.');
+    return Error(place, "the header lacks \"" + path.substr(1) + "\", " + type);
+  };
+  for (const char* path : kTexts) {
+    const nlohmann::ordered_json::json_pointer pointer(path);
+    if (!object.contains(pointer) || !object[pointer].is_string()) throw lacks(path, "a text");
+  }
+  const nlohmann::ordered_json::json_pointer cores("/host/cores");
+  if (!object.contains(cores) || !object[cores].is_number_integer()) throw lacks("/host/cores", "an integer");
+}
+
 std::string json_row(const Row& row, std::string_view kind) {
   std::string line = "{";
   if (!kind.empty()) line += "\"kind\":" + json_text(kind);

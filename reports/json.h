@@ -37,6 +37,9 @@ std::string json_text(std::string_view text);
 // The text at a JSON pointer (RFC 6901) of a JSON object; "" where there is none, and for what is no object.
 std::string text_at(std::string_view object, const char* pointer);
 
+// Throws Error at `place` for what is no header of results: study, tool and host with the texts that a page shows.
+void check_header(std::string_view header, const std::string& place);
+
 // Several tables under one header: as lines, told apart by "kind", and as one object, {"header":...,"NAME":[...],...}.
 struct JsonTable {
   std::string_view name, kind;

@@ -61,10 +61,18 @@ std::string images_json(const PageImages& images) {
 // One line for all files that could not be read.
 void add_notice(const PageRun& run, const std::vector<std::string>& faults, std::vector<std::string>& notices) {
   if (faults.empty()) return;
+  // Where the run's folder is on this machine is nothing for a page.
+  const std::string folder = run.folder + "/";
+  const std::string first = faults.front().starts_with(folder) ? faults.front().substr(folder.size()) : faults.front();
   notices.push_back(
-      run.folder + ": " + std::to_string(faults.size()) +
-      (faults.size() == 1 ? " part is missing in the page: " : " parts are missing in the page, first: ") +
-      faults.front());
+      std::to_string(faults.size()) +
+      (faults.size() == 1 ? " part is missing in the page: " : " parts are missing in the page, first: ") + first);
+}
+
+std::string texts_json(const std::vector<std::string>& texts) {
+  std::vector<std::string> items;
+  for (const std::string& text : texts) items.push_back(json_text(text));
+  return json_array(items);
 }
 
 // What comes of times: the page's bytes may depend on it, what the page holds may not.
@@ -89,10 +97,12 @@ std::size_t planned_bytes(const Table& table) {
 
 struct RunPart {
   std::string json;
-  std::size_t planned = 0;  // bytes that were planned for it, whatever its times
+  std::size_t planned = 0;           // bytes that were planned for it, whatever its times
+  std::vector<std::string> notices;  // in the JSON, too
 };
 
-RunPart run_part(const PageRun& run, const RunPlace& place, std::size_t budget, std::vector<std::string>& notices) {
+RunPart run_part(const PageRun& run, const RunPlace& place, std::size_t budget) {
+  std::vector<std::string> notices = run.notices;
   const std::vector<PageImage> ranked = images_by_rank(run.rows);
   const PageCurves filters = page_filters(run.rows), points = page_points(run.rows),
                    spectra = page_spectra(ranked, place, budget / kSpectraShare);
@@ -110,10 +120,16 @@ RunPart run_part(const PageRun& run, const RunPlace& place, std::size_t budget, 
     planned += planned_bytes(table);
   }
 
+  if (planned > budget) {
+    notices.emplace_back(
+        "The tables alone are as large as the run's share of the page's --budget, or larger: none of the run's images "
+        "has room.");
+  }
   PageImages images = page_images(ranked, place, budget - std::min(budget, planned));
   planned += images.bytes;
   for (const PageCurves* curves : {&filters, &points, &spectra}) add_notice(run, curves->faults, notices);
   add_notice(run, images.unreadable, notices);
+  if (!notices.empty()) object.add("notices", texts_json(notices));
   for (;;) {
     std::vector<PageImage> left_out = images.left_out;
     left_out.insert(left_out.end(), spectra.left_out.begin(), spectra.left_out.end());
@@ -123,7 +139,7 @@ RunPart run_part(const PageRun& run, const RunPlace& place, std::size_t budget, 
     whole.add("images", images_json(images));
     whole.add("left_out", left_out_json(left_out, place.link));
     std::string json = script_safe(std::move(whole).text());
-    if (json.size() <= budget || images.kept.empty()) return {std::move(json), planned};
+    if (json.size() <= budget || images.kept.empty()) return {std::move(json), planned, notices};
     // Rows of results took more than was planned for them.
     images.left_out.push_back(std::move(images.kept.back().image));
     images.kept.pop_back();
@@ -143,7 +159,8 @@ PageData page_data(std::span<const PageRun> runs, const std::string& page_folder
     for (int copy = 2; !ids.insert(id).second; ++copy) id = file_part(name) + "-" + std::to_string(copy);
     // What one run does not need the next ones have.
     const std::size_t share = budget / (runs.size() - i);
-    RunPart part = run_part(runs[i], {runs[i].folder, link_to(runs[i].folder, page_folder), id}, share, page.notices);
+    RunPart part = run_part(runs[i], {runs[i].folder, link_to(runs[i].folder, page_folder), id}, share);
+    for (const std::string& notice : part.notices) page.notices.push_back(runs[i].folder + ": " + notice);
     budget -= std::min(budget, part.planned);
     parts.push_back(std::move(part.json));
   }

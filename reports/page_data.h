@@ -19,8 +19,8 @@ struct PageData {
 // The JSON has no '<' (script_safe() in page_json.h). The same runs give the same bytes, apart from what comes of their
 // times. `page_folder` is where the page will stand: links lead from there to the runs' folders. `budget`, in bytes, is
 // for everything together: tables, filters and points are always there, then come radial spectra (a quarter of a run's
-// share at most) and images by rank; what is left out is listed in the page. Only missing and unreadable files are told
-// in `notices`.
+// share at most) and images by rank; what is left out is listed in the page. Files that are missing or cannot be read,
+// runs that are not complete, and tables above the budget are told in `notices` and in the page.
 inline constexpr std::size_t kDefaultBudget = 10'000'000;
 PageData page_data(std::span<const PageRun> runs, const std::string& page_folder, std::size_t budget);
 

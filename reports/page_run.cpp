@@ -10,10 +10,11 @@
 
 #include "core/error.h"
 #include "reports/json.h"
+#include "reports/page_plan.h"
+#include "reports/page_rows.h"
 #include "reports/pattern_ranking.h"
-#include "study/discrepancy_study.h"
-#include "study/document.h"
 #include "study/filter_table.h"
+#include "study/row_keys.h"
 #include "study/text_file.h"
 
 namespace moire {
@@ -54,16 +55,37 @@ Table filters_of(const PageRun& run) {
   return filter_table(filters);
 }
 
-// Discrepancies are summarised by the plan of their study, which the header has.
-Tables discrepancy_tables(const PageRun& run, const std::string& path) {
-  const std::string text = text_at(run.header, "/study/text"), name = text_at(run.header, "/study/name");
-  const DiscrepancyStudy study = parse_discrepancy_study(parse_toml(text, path + ":1"), text, name);
-  const DiscrepancyPlan planned = plan(study);
-  if (planned.rows != run.rows.size()) {
-    throw Error(path, "has " + std::to_string(run.rows.size()) + " of the " + std::to_string(planned.rows) +
-                          " rows of its study; go on with moire run --resume first");
+// Says how far a run has come that was stopped, or still goes on.
+void tell_rows(PageRun& run, std::size_t planned) {
+  if (run.rows.size() == planned) return;
+  run.notices.push_back("The run is not complete: " + std::to_string(run.rows.size()) + " of the " +
+                        std::to_string(planned) + " rows of its study are here; moire run --resume goes on with it.");
+}
+
+Tables set_tables(PageRun& run, const std::string& path) {
+  const WholeSets whole = whole_sets(run.header, run.rows, path);
+  tell_rows(run, whole.planned);
+  return page_tables(summarize(whole.study, whole.plan, whole.rows));
+}
+
+Tables image_tables(PageRun& run) {
+  if (const auto planned = order_by_plan(run.header, run.rows)) {
+    tell_rows(run, *planned);
+  } else if (run.rows.empty()) {
+    run.notices.emplace_back("The run has no rows yet; moire run --resume goes on with it.");
   }
-  return page_tables(summarize(study, planned, run.rows));
+  return page_tables(run.rows, summarize(run.rows), filters_of(run));
+}
+
+void read_study_run(PageRun& run, const std::string& path) {
+  ResultsFile file = read_results(path);
+  check_header(file.header, path + ":1");
+  check_rows(file.rows, path);
+  run.header = std::move(file.header);
+  run.rows = std::move(file.rows);
+  if (!file.cut.empty()) run.notices.emplace_back("The last line of the results is cut, and is left out.");
+  const bool of_sets = run.rows.empty() ? is_of_sets(run.header) : is_set_row(run.rows.front());
+  run.tables = of_sets ? set_tables(run, path) : image_tables(run);
 }
 
 std::string schema_of(const std::string& path) {
@@ -84,16 +106,14 @@ PageRun read_run(const std::string& path) {
   if (run.folder.empty()) run.folder = ".";
   const std::string schema = schema_of(path);
   if (schema == kResultsSchema) {
-    ResultsFile file = read_results(path);
-    run.header = std::move(file.header);
-    run.rows = std::move(file.rows);
-    const bool of_discrepancies = !run.rows.empty() && run.rows.front().find("measure") != nullptr;
-    run.tables =
-        of_discrepancies ? discrepancy_tables(run, path) : page_tables(run.rows, summarize(run.rows), filters_of(run));
+    read_study_run(run, path);
   } else if (schema == kBenchSchema || schema == kStressSchema) {
     JsonTables file = read_json_tables(path);
+    check_header(file.header, path + ":1");
     run.header = std::move(file.header);
     for (auto& [kind, table] : file.tables) add(run.tables, table_name(schema, kind), std::move(table));
+  } else if (schema.empty()) {
+    throw Error(path, "is no results file of moire; give a run's folder or its results.jsonl");
   } else {
     throw Error(path, "has the schema \"" + schema + "\"; " + std::string(kNeeded));
   }

@@ -17,6 +17,7 @@ struct PageRun {
   std::string folder;  // of its files, on disk
   Table rows;          // of results.jsonl; images, filters and patterns are found in them
   std::vector<std::pair<std::string, Table>> tables;  // by the names that schema.ts lists; none is empty
+  std::vector<std::string> notices = {};              // what it lacks, a sentence each, for the page's reader
 };
 
 // The tables of a study of images, and of one of discrepancies. `filters`: see filter_table(); may be empty.
@@ -24,8 +25,8 @@ std::vector<std::pair<std::string, Table>> page_tables(const Table& rows, const 
 std::vector<std::pair<std::string, Table>> page_tables(const DiscrepancySummary& summary);
 
 // The runs at `path`: a results.jsonl, bench.jsonl or stress.jsonl (by its schema, not by its name), or a folder with
-// one or more of the three. What summaries have is computed again. Throws Error for a path that is none of these, and
-// for files with other contents, naming the place.
+// one or more of the three. What summaries have is computed again. A run that was stopped has what is there, and a
+// notice. Throws Error for a path that is none of these, and for files with other contents, naming the place.
 std::vector<PageRun> read_runs(const std::string& path);
 
 }  // namespace moire

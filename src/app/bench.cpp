@@ -8,6 +8,7 @@
 #include "app/folder_lock.h"
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/page.h"
 #include "app/progress.h"
 #include "app/studies.h"
 #include "reports/bench_report.h"
@@ -58,6 +59,7 @@ Exit execute(const BenchOptions& options) {
   if (!options.folder.empty()) {
     make_folder(options.folder);
     lock.emplace(options.folder);
+    check_page_path(options.folder + "/index.html");
   }
   BenchmarkSettings settings;
   settings.repeats = options.repeats;
@@ -74,12 +76,14 @@ Exit execute(const BenchOptions& options) {
   if (!benchmark.complete) {
     throw Error("moire bench", "interrupted; nothing is written, since medians need all repeats", Exit::interrupted);
   }
-  if (!options.folder.empty()) write_files(options.folder, study, benchmark);
-  if (options.json) {
-    print(json_of(study, benchmark, json_object));
-  } else {
-    print(bench_text(benchmark, host()));
-    if (!options.folder.empty()) print("report: " + options.folder + "/report.md\n");
+  // First, so that a folder that fails now loses nothing.
+  print(options.json ? json_of(study, benchmark, json_object) : bench_text(benchmark, host()));
+  flush_output();
+  if (!options.folder.empty()) {
+    write_files(options.folder, study, benchmark);
+    const std::string page = write_folder_page(options.folder);
+    if (!options.json) print("report: " + options.folder + "/report.md\n");
+    if (!options.json && !page.empty()) print("report: " + page + "\n");
   }
   for (const Row& row : benchmark.rows) {
     const Cell* same = row.find("exhaustive_same");

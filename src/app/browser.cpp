@@ -100,7 +100,7 @@ class Process {
     ::close(output_);
     if (child_ > 0) {
       ::kill(-child_, SIGKILL);
-      ::waitpid(child_, nullptr, 0);
+      reap();
     }
   }
   Process(const Process&) = delete;
@@ -125,10 +125,7 @@ class Process {
       text.append(block, static_cast<std::size_t>(got));
       if (text.size() > kMostBytes) throw failed(program_, "wrote more than 1 GiB");
     }
-    int status = 0;
-    ::waitpid(child_, &status, 0);
-    ::kill(-child_, SIGKILL);  // whatever of its group is left
-    child_ = -1;
+    const int status = end_group();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
       throw failed(program_, fmt::format("failed (status {})", WIFEXITED(status) ? WEXITSTATUS(status) : -1));
     }
@@ -136,6 +133,24 @@ class Process {
   }
 
  private:
+  int reap() {
+    int status = 0;
+    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    }
+    child_ = -1;
+    return status;
+  }
+
+  // Waits for the process, ends whatever of its group is left, and returns its status. Until it is reaped its number,
+  // which is the group's, is nobody else's.
+  int end_group() {
+    siginfo_t info{};
+    while (::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    ::kill(-child_, SIGKILL);
+    return reap();
+  }
+
   std::string program_;
   pid_t child_ = -1;
   int output_ = -1;
@@ -146,9 +161,17 @@ class Process {
 std::string rendered_document(const std::string& file, const std::string& fragment, const std::string& folder,
                               const std::function<bool()>& stop) {
   // Virtual time runs while nothing is left to do: the page's timers and frames do not wait for a clock.
-  Process process({browser(), "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-                   "--disable-background-networking", "--disable-dev-shm-usage", "--user-data-dir=" + folder,
-                   "--virtual-time-budget=60000", "--dump-dom", address_of(file) + "#" + fragment});
+  std::vector<std::string> words = {browser(),
+                                    "--headless",
+                                    "--disable-gpu",
+                                    "--no-first-run",
+                                    "--disable-background-networking",
+                                    "--disable-dev-shm-usage",
+                                    "--user-data-dir=" + folder,
+                                    "--virtual-time-budget=60000"};
+  if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // Chromium does not start as root with its sandbox
+  words.insert(words.end(), {"--dump-dom", address_of(file) + "#" + fragment});
+  Process process(words);
   return process.output(stop);
 }
 

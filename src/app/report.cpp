@@ -75,14 +75,17 @@ void write_figures(const std::string& page, const std::string& folder) {
 }  // namespace
 
 Exit execute(const ReportOptions& options) {
+  const bool writes_page = options.figures.empty() || !options.out.empty();
+  if (!options.out.empty()) check_page_path(options.out);
   std::vector<PageRun> runs;
   for (const std::string& path : options.runs) {
     for (PageRun& run : read_runs(path)) runs.push_back(std::move(run));
   }
   const std::string out = options.out.empty() ? runs.front().folder + "/index.html" : options.out;
+  if (writes_page && options.out.empty()) check_page_path(out);
   const std::string page = page_of(runs, out, options.budget);
   if (!options.figures.empty()) write_figures(page, options.figures);
-  if (options.figures.empty() || !options.out.empty()) {
+  if (writes_page) {
     write_whole(out, page);
     print("report: " + out + "\n");
   }

@@ -26,6 +26,7 @@
 #include "study/discrepancy_run.h"
 #include "study/discrepancy_summary.h"
 #include "study/file_names.h"
+#include "study/row_keys.h"
 
 namespace moire {
 namespace {
@@ -105,12 +106,6 @@ std::vector<Picture> draw_lines(const DiscrepancyStudy& study, const RunFolder& 
   return pictures;
 }
 
-// The key of a row, as describe() writes it.
-std::string key_of(const Row& row) {
-  return fmt::format("{} {:.0f} {:.0f} {} {:.0f}", row.text("pattern"), row.number("n"), row.number("dims"),
-                     row.text("measure"), row.number("trial"));
-}
-
 std::vector<std::string> keys_of(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
   std::vector<std::string> keys;
   keys.reserve(plan.rows);
@@ -125,7 +120,7 @@ std::vector<std::string> keys_of(const DiscrepancyStudy& study, const Discrepanc
 Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   const DiscrepancyPlan planned = plan(study);
   const std::vector<Drawn> drawn = drawn_sets(study, planned);
-  PlannedRows rows{study.seed, keys_of(study, planned), key_of};
+  PlannedRows rows{study.seed, keys_of(study, planned), set_row_key};
   if (options.dry_run) {
     print(fmt::format("# {} rows: pattern n dims measure trial\n", planned.rows));
     for (const std::string& key : rows.keys) print(key + "\n");

@@ -21,6 +21,7 @@
 #include "reports/markdown.h"
 #include "reports/terminal.h"
 #include "study/filter_table.h"
+#include "study/row_keys.h"
 #include "study/run.h"
 #include "study/summary.h"
 
@@ -58,13 +59,6 @@ void write_reports(const RunFolder& run, const Study& study, Table rows) {
   write_run_page({run.header(), folder, std::move(rows), std::move(tables)});
 }
 
-// The key of a row, as describe() writes that of its case.
-std::string key_of(const Row& row) {
-  return fmt::format("{} {} {:.0f} {} {} {:.0f}{}", row.text("scene"), row.text("pattern"), row.number("spp"),
-                     row.text("filter"), row.text("estimator"), row.number("trial"),
-                     row.text("layout") == "image" ? " image" : "");
-}
-
 }  // namespace
 
 Exit run_study(const RunOptions& options, const Study& study) {
@@ -74,7 +68,7 @@ Exit run_study(const RunOptions& options, const Study& study) {
     return Exit::ok;
   }
   const ThreadLimit limit(options.threads);
-  PlannedRows planned{study.seed, {}, key_of};
+  PlannedRows planned{study.seed, {}, image_row_key};
   for (const Case& c : cases) planned.keys.push_back(describe(study, c));
   RunFolder folder(options, {study.name, study.text}, planned, kReports, study.images != Images::none);
 

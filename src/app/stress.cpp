@@ -9,6 +9,7 @@
 #include "app/folder_lock.h"
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/page.h"
 #include "app/progress.h"
 #include "core/names.h"
 #include "core/parallel.h"
@@ -35,6 +36,8 @@ std::vector<stress::Family> chosen_families(const std::vector<std::string>& name
       for (const stress::Family& family : all) known.push_back(family.name);
       throw Error("--family", unknown_name("family", name, known));
     }
+    const auto same = [&](const stress::Family& f) { return f.name == name; };
+    if (std::any_of(chosen.begin(), chosen.end(), same)) throw Error("--family", "\"" + name + "\" is listed twice");
     chosen.push_back(*at);
   }
   return chosen;
@@ -61,6 +64,7 @@ Exit execute(const StressOptions& options) {
   if (!options.folder.empty()) {
     make_folder(options.folder);
     lock.emplace(options.folder);
+    check_page_path(options.folder + "/index.html");
   }
   const ThreadLimit limit(options.threads);
   watch_interrupts();
@@ -86,6 +90,9 @@ Exit execute(const StressOptions& options) {
     return form(header_of(options),
                 {{"rows", "row", &rows}, {"growth", "growth", &growth}, {"failures", "failure", &failures}});
   };
+  // First, so that a folder that fails now loses nothing.
+  print(options.json ? json_of(json_object) : stress_text(rows, failures));
+  flush_output();
   if (!options.folder.empty()) {
     const auto write = [&](std::string_view name, const std::string& text) {
       write_whole(options.folder + "/" + std::string(name), text);
@@ -95,12 +102,9 @@ Exit execute(const StressOptions& options) {
     write("growth.csv", csv(growth));
     write(kPlotFile, log_plot_svg(stress_plot(findings)));
     write("report.md", stress_markdown(rows, failures, tool(), host(), kPlotFile));
-  }
-  if (options.json) {
-    print(json_of(json_object));
-  } else {
-    print(stress_text(rows, failures));
-    if (!options.folder.empty()) print("report: " + options.folder + "/report.md\n");
+    const std::string page = write_folder_page(options.folder);
+    if (!options.json) print("report: " + options.folder + "/report.md\n");
+    if (!options.json && !page.empty()) print("report: " + page + "\n");
   }
   return failures.empty() ? Exit::ok : Exit::failed;
 }

@@ -1,10 +1,13 @@
 // Checkerboards that hurt: their horizon on, between and across pixel rows, vanishing points inside pixels, rolled and
 // grazing views, focal lengths from far too short to far too long, nearly singular homographies.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "oracle/coverage.h"
+#include "oracle/filtered.h"
 #include "oracle/one_point.h"
 #include "stress/exact_case.h"
 #include "stress/naive.h"
@@ -27,6 +30,7 @@ enum Kind : std::uint64_t {
   nearly_singular,  // u almost a function of v
   on_knots,         // lines on knot lines or tilted from them by 1e-14 .. 1e-3
   far_away,         // image offsets up to 2^40 pixels
+  endless,          // the whole plane, however many squares: the program's values against sums of others of its own
   kKinds
 };
 
@@ -201,10 +205,149 @@ ExactCase on_knots_case(Chance& chance, FilterPtr filter) {
   return finished(scenes::board(h, {-most, most, -most, most - 0.5}), pixel, std::move(filter));
 }
 
+// The whole plane by a camera of the program's own making or by a homography, where its squares are many: at the
+// horizon, in front of it or a little beyond.
+struct PlaneView {
+  TestImage image;
+  Pixel pixel;
+};
+
+// Columns and horizon with slopes of small whole numbers.
+PlaneView resonant_plane(Chance& chance, double rows) {
+  const auto whole = [&](double most) { return std::round(chance.between(-most, most)); };
+  const double a = whole(4) + 5, b = whole(4), d = whole(4);
+  const double w = chance.sign() * std::ldexp(1, static_cast<int>(chance.below(7)) - 6), lean = whole(2) * w / 2;
+  const View view{{a, b, chance.between(-20, 20), d, b * d >= 0 ? -5.0 : 5.0, chance.between(-20, 20), lean, w,
+                   -w * chance.between(0, 64)},
+                  {}};
+  const std::vector<double>& h = view.homography;
+  const double x = chance.between(0, 64), depth = rows * std::hypot(lean, w);
+  const Vec2 at{x, (depth - h[6] * x - h[8]) / h[7]};
+  return {scenes::plane(h), View{h, at}.pixel()};
+}
+
+PlaneView any_plane(Chance& chance) {
+  Camera camera = any_camera(chance);
+  const double rows = chance.coin() ? chance.between(-0.7, 1) : chance.decades(1e-9, 20);
+  double along = chance.between(-1, 1);
+  const std::uint64_t way = chance.below(5);
+  if (way == 0) return resonant_plane(chance, rows);
+  if (way == 1) camera.pitch = chance.sign() * chance.decades(1e-15, 1e-8);
+  if (way == 2) {
+    camera.focal = chance.decades(1e-3, 1e9);
+    along = chance.sign() * chance.decades(1e-3, 1e3) / std::max(1.0, camera.focal / 512);
+  }
+  View view = scenes::view_of(camera, rows, along);
+  if (way == 3) {
+    std::vector<double>& h = view.homography;
+    const double apart = chance.decades(1e-9, 1e-1);
+    for (std::size_t i = 0; i < 3; ++i) h[i] = h[3 + i] + apart * h[i];
+  } else if (chance.coin()) {
+    return {scenes::plane(camera), view.pixel()};
+  }
+  view = mirrored(chance, view);
+  return {scenes::plane(view.homography), view.pixel()};
+}
+
+// A kernel that is a sum of narrow ones at whole pixels, with these weights along each axis over their sum: in the
+// image itself, or in one of twice as many pixels a side, whose homography is the same but for a power of two.
+struct Refinement {
+  const char *wide, *narrow;
+  double finer;        // 1 or 2: pixels of the narrow kernel's image in one of the wide one's
+  std::int64_t first;  // its first pixel, counted from `finer` times the wide one's
+  std::vector<double> weight;
+};
+
+// The sum, from the program's values, and the sum of their bounds.
+oracle::Value refined(const Refinement& r, const TestImage& plane, Pixel pixel) {
+  const oracle::Board board = oracle::board_of(plane);
+  std::vector<double> h(board.homography.begin(), board.homography.end());
+  for (const std::size_t i : {0, 1, 3, 4, 6, 7}) h[i] /= r.finer;
+  const TestImage finer = scenes::plane(h);
+  const FilterPtr narrow = checked_filter(r.narrow);
+  const auto times = static_cast<std::int64_t>(r.finer), count = static_cast<std::int64_t>(r.weight.size());
+  double total = 0;
+  for (const double w : r.weight) total += w;
+  oracle::Value sum;
+  for (std::int64_t j = 0; j < count; ++j)
+    for (std::int64_t i = 0; i < count; ++i) {
+      const Exact part =
+          exact_pixel(finer, narrow->filter, {times * pixel.x + r.first + i, times * pixel.y + r.first + j});
+      const double weight = r.weight[static_cast<std::size_t>(i)] * r.weight[static_cast<std::size_t>(j)];
+      const long double share = static_cast<long double>(weight) / static_cast<long double>(total * total);
+      sum += {share * static_cast<long double>(part.value), share * static_cast<long double>(part.bound)};
+    }
+  sum.error += 0x1p-57L;  // at most 36 products and sums, of 64 bits and below 1
+  return sum;
+}
+
+ExactCase wide_window_case(Chance& chance) {
+  static const std::vector<Refinement> kBoxes{{"box", "box", 2, 0, {1, 1}},
+                                              {"box:width=2", "box", 2, -1, {1, 1, 1, 1}},
+                                              {"box:width=3", "box", 1, -1, {1, 1, 1}},
+                                              {"box:width=5", "box", 1, -2, {1, 1, 1, 1, 1}}};
+  static const std::vector<Refinement> kOthers{{"tent:radius=2", "tent", 1, -1, {1, 2, 1}},
+                                               {"tent:radius=3", "tent", 1, -2, {1, 2, 3, 2, 1}},
+                                               {"bspline:order=2", "bspline:order=2", 2, -1, {1, 3, 3, 1}},
+                                               {"bspline:order=4", "bspline:order=4", 2, -2, {1, 5, 10, 10, 5, 1}}};
+  const PlaneView view = any_plane(chance);
+  const Refinement r = chance.pick(chance.below(32) == 0 ? kOthers : kBoxes);
+  ExactCase c = finished(view.image, view.pixel, checked_filter(r.wide));
+  c.oracle_doubt = 0;
+  c.truth = [r, view] { return refined(r, view.image, view.pixel); };
+  return c;
+}
+
+// Of the half-plane in front of the horizon, as the oracle has it.
+oracle::Value value_in_front(const oracle::Board& board, const CheckedFilter& f, Pixel pixel) {
+  using oracle::Quad;
+  const Quad nx = oracle::widen(board.homography[6]), ny = oracle::widen(board.homography[7]);
+  const Quad x = static_cast<Quad>(pixel.x) + Quad(1) / 2, y = static_cast<Quad>(pixel.y) + Quad(1) / 2;
+  const oracle::HalfPlane seen{nx, ny, nx * x + ny * y + oracle::widen(board.homography[8])};
+  const double reach = f.filter.radius();
+  if (f.is_box) return oracle::coverage(seen, 2 * reach);
+  if (f.kernel) return oracle::filtered(*f.kernel, seen);
+  // As an edge across pixel 0, 0: its point in doubles is within a unit in the last place of 1/2 and of the window's
+  // size, and moves the value by no more than that times the kernel's largest integral along a line. Beyond the window
+  // any distance will do.
+  const double n[2] = {board.homography[6], board.homography[7]}, size = std::hypot(n[0], n[1]);
+  const double away = std::clamp(-static_cast<double>(seen.offset / oracle::widen(size)), -2 * reach, 2 * reach);
+  const oracle::Edge edge{{0.5 + away * n[0] / size, 0.5 + away * n[1] / size}, {n[0], n[1]}};
+  oracle::Value value = oracle::filtered(*f.rings, edge, {0, 0});
+  value.error += static_cast<long double>(0x1p-50 * (1 + reach) * 2 * reach * f.filter.radial_kernel().k_max());
+  return value;
+}
+
+// Mirrored in u, the squares have each other's colours: both values add to that of the half-plane in front of the
+// horizon. The image is turned by a quarter, too, so that rows and columns of the window change places.
+oracle::Value without_other_colour(const TestImage& plane, const CheckedFilter& f, Pixel pixel) {
+  const oracle::Board board = oracle::board_of(plane);
+  const std::array<double, 9>& h = board.homography;
+  const TestImage other = scenes::plane({-h[1], h[0], -h[2], h[4], -h[3], h[5], h[7], -h[6], h[8]});
+  const Exact part = exact_pixel(other, f.filter, {pixel.y, -1 - pixel.x});
+  const oracle::Value all = value_in_front(board, f, pixel);
+  return {all.value - static_cast<long double>(part.value),
+          all.error + static_cast<long double>(part.bound) + 0x1p-62L};
+}
+
+ExactCase two_colours_case(Chance& chance) {
+  const PlaneView view = any_plane(chance);
+  // On the horizon other separable kernels take a second, and far more at focal lengths of 1e9.
+  FilterPtr filter = chance.below(8) == 0 ? pick_filter(chance) : checked_filter("box");
+  const double low = 0.5 - filter->filter.radius(), high = 0.5 + filter->filter.radius();
+  if (filter->kernel && view.image.meets_horizon(view.pixel, {{low, low}, {high, high}}))
+    filter = checked_filter("box");
+  ExactCase c = finished(view.image, view.pixel, filter);
+  c.oracle_doubt = 0;
+  c.truth = [filter, view] { return without_other_colour(view.image, *filter, view.pixel); };
+  return c;
+}
+
 ExactCase make_case(CaseKey key) {
   Chance chance("boards", key);
   const std::uint64_t kind = key.index % kKinds;
   if (kind == one_point) return one_point_case(chance);
+  if (kind == endless) return chance.below(6) == 0 ? wide_window_case(chance) : two_colours_case(chance);
   const FilterPtr filter = pick_filter(chance);
   if (kind == few_squares) return few_squares_case(chance, filter);
   if (kind == vanishing_point) return vanishing_case(chance, filter);
@@ -247,7 +390,9 @@ constinit const Family boards = {
     .title = "checkerboards to and across their horizon, rolled, grazing, nearly singular, far from the origin",
     .quantity = "exact value of a pixel under any filter",
     .severity = "condition of the homography",
-    .claim = "the printed bound of `moire exact --pixels`",
+    .claim =
+        "the printed bound of `moire exact --pixels`; of planes without end, that and those of the program's other "
+        "values that make up the same one",
     .share = 1,
     .run = [](CaseKey key) { return run(make_case(key)); },
     .describe = [](CaseKey key) { return describe(make_case(key)); }};

@@ -1,9 +1,13 @@
 // Edges that hurt: nearly along sides and diagonals, on knot lines and corners, far from the origin, moving.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "oracle/quad.h"
 #include "stress/exact_case.h"
 #include "stress/naive.h"
 #include "stress/scenes.h"
@@ -19,6 +23,7 @@ enum Kind : std::uint64_t {
   point_far_along,  // `through` up to 2^40 pixels along the edge
   cut_corner,       // the window's outermost corner cut 1e-16 .. 1e-2 pixel deep
   any_length,       // normals of length 1e-300 .. 1e300
+  in_degrees,       // the normal at or within 1e-16 .. 1e-3 degrees of a multiple of 45, or any other
   in_motion,
   kKinds
 };
@@ -104,11 +109,66 @@ ExactCase moving_case(Chance& chance) {
   return finished(scenes::moving_edge({x - when * motion.x, y - when * motion.y}, n, motion), place, filter);
 }
 
+struct QuadVector {
+  oracle::Quad x, y;
+};
+
+// Cosine and sine of an angle in degrees, right to some 2^-110 of each: the angle to the nearest axis is a double, and
+// within 45 degrees both are sums of Taylor's series that hardly cancel.
+QuadVector true_direction(double degrees) {
+  using oracle::Quad;
+  // The nearest of 113 bits, in two parts.
+  const Quad pi = oracle::widen(0xc.90fdaa22168c235p-2L) - oracle::widen(0xe.ce675d1fc9p-68L);
+  int quarters = 0;
+  const Quad angle = oracle::widen(std::remquo(degrees, 90.0, &quarters)) * pi / 180;
+  Quad c = 1, s = angle, term = angle;
+  for (int n = 2; n < 40; ++n) {
+    term *= angle / n;
+    (n % 2 == 0 ? c : s) += n / 2 % 2 == 0 ? term : -term;
+  }
+  QuadVector v{c, s};
+  for (int i = 0; i < ((quarters % 4) + 4) % 4; ++i) v = {-v.y, v.x};
+  return v;
+}
+
+// What is wrong with the components that a scene made of degrees: more than one unit in the last place of the true
+// component off, unequal at 45 degrees or not 0 along an axis. "": nothing.
+std::string fault_of_direction(double degrees, Vec2 n) {
+  const auto wrong = [](double got, oracle::Quad wanted) {
+    const double rounded = static_cast<double>(oracle::abs(wanted));
+    if (rounded == 0) return got != 0;
+    const double ulp = std::ldexp(1.0, std::ilogb(rounded) - 52);
+    return !(oracle::abs(oracle::widen(got) - wanted) <= oracle::widen(ulp));
+  };
+  const QuadVector wanted = true_direction(degrees);
+  const bool diagonal = std::fabs(std::remainder(degrees, 90.0)) == 45;
+  if (!wrong(n.x, wanted.x) && !wrong(n.y, wanted.y) && !(diagonal && std::fabs(n.x) != std::fabs(n.y))) return {};
+  return fmt::format("the normal of {:.17g} degrees is [{:.17g}, {:.17g}] where [{:.17g}, {:.17g}] is nearest", degrees,
+                     n.x, n.y, static_cast<double>(wanted.x), static_cast<double>(wanted.y));
+}
+
+ExactCase in_degrees_case(Chance& chance, FilterPtr filter) {
+  const std::vector<double> knots = filter->knots();
+  const Place place = near_origin(chance);
+  const Vec2 through{touchy(chance, place.centre.x, knots), touchy(chance, place.centre.y, knots)};
+  const double straight = 45 * (static_cast<double>(chance.below(33)) - 16);  // up to two turns either way
+  double degrees = straight;
+  const std::uint64_t way = chance.below(4);
+  if (way == 1) degrees = std::nextafter(straight, chance.sign() * HUGE_VAL);
+  if (way == 2) degrees = straight + chance.sign() * chance.decades(1e-16, 1e-3);
+  if (way == 3) degrees = chance.sign() * chance.decades(1e-3, 1e6);
+  ExactCase c = finished(scenes::edge(through, degrees), place, std::move(filter));
+  const oracle::Edge edge = oracle::edge_of(c.image);
+  c.fault = fault_of_direction(degrees, {edge.normal[0], edge.normal[1]});
+  return c;
+}
+
 ExactCase make_case(CaseKey key) {
   Chance chance("edges", key);
   const std::uint64_t kind = key.index % kKinds;
   if (kind == in_motion) return moving_case(chance);
   const FilterPtr filter = pick_filter(chance);
+  if (kind == in_degrees) return in_degrees_case(chance, filter);
   const std::vector<double> knots = filter->knots();
   const double reach = filter->filter.radius();
   const Place place = kind == far_away ? far_off(chance) : near_origin(chance);
@@ -157,7 +217,7 @@ ExactCase make_case(CaseKey key) {
 extern const Family edges;
 constinit const Family edges = {
     .name = "edges",
-    .title = "half-planes along sides and diagonals, through corners, far from the origin, moving",
+    .title = "half-planes along sides and diagonals, through corners, in degrees, far from the origin, moving",
     .quantity = "exact value of a pixel under any filter",
     .severity = "coordinate over angle to axis or diagonal, px",
     .claim = "the printed bound of `moire exact --pixels`",

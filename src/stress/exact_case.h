@@ -43,10 +43,11 @@ struct ExactCase {
   TestImage image;
   Pixel pixel;
   FilterPtr filter;
-  double severity = 1;
+  double severity = 1;  // of a board: the condition of its homography
   // The truth where the oracle knows it better than by true_value(), and what is to be added to the error it states.
   std::function<oracle::Value()> truth = {};
   double oracle_doubt = 0;
+  std::string fault = {};  // of what the scene made of its arguments; "": none
   // The textbook formula's value; NaN: none.
   double naive = std::numeric_limits<double>::quiet_NaN();
 };
@@ -55,7 +56,11 @@ struct ExactCase {
 // rings for radial ones, units of the radius for tiny disks. `image` is an edge, a disk or a checkerboard.
 oracle::Value true_value(const TestImage& image, const CheckedFilter& filter, Pixel pixel);
 
-// Compares what the program got; no error of its own beyond the truth's.
+// The largest bound that the program may claim of the case; infinite: no promise is made, any bound will do that is
+// kept. Without this a claim of 1/2 give or take 1/2 would pass everywhere.
+double promised_bound(const ExactCase& c);
+
+// Compares what the program got; no error of its own beyond the truth's. A bound above the promised one is a fault.
 Outcome judged(const ExactCase& c, const Exact& got, const oracle::Value& truth);
 Outcome run(const ExactCase& c);
 

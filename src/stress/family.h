@@ -43,7 +43,7 @@ inline double relative_error(const Outcome& outcome) {
 // The part of its bound that the error is known to take: what the oracle may err by is taken off. A fault, or an error
 // where none may be, is infinite.
 inline double part_of_bound(const Outcome& outcome) {
-  if (!outcome.fault.empty()) return std::numeric_limits<double>::infinity();
+  if (!outcome.fault.empty() || outcome.bound != outcome.bound) return std::numeric_limits<double>::infinity();
   if (outcome.error <= outcome.oracle_error) return 0;
   return (outcome.error - outcome.oracle_error) / outcome.bound;
 }

@@ -196,7 +196,7 @@ constinit const Family kernels = {
     .quantity = "k and K (radial: k, q, G), per pixel",
     .severity = "peak times radius (radial: its square)",
     .claim = "bounds of the piece (filters/kernel.h, radial_kernel.h)",
-    .share = 0.05,
+    .share = 0.15,
     .run = run,
     .describe = describe};
 

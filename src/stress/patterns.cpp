@@ -25,7 +25,8 @@ namespace {
 
 using oracle::Quad;
 
-constexpr std::uint64_t kLargeEvery = 8192;  // one case in so many has 2^24 points
+constexpr std::uint64_t kLargeEvery = 8192;  // among so many the first ones have 2^24 points, a pattern each
+constexpr std::string_view kLarge[] = {"zaremba", "hammersley", "n-rooks", "random", "jittered"};
 constexpr std::int64_t kMostArea = 1 << 12;
 
 using Case = ManyValues;
@@ -145,13 +146,18 @@ void check_scrambled_times(const std::vector<double>& got, Worst& worst) {
   }
 }
 
+// Of very many points definitions are asked of every 7th or 61st alone: the last digits of their numbers in bases 2
+// and 3 take all values, and so do the first.
+constexpr std::size_t kMany = 1 << 20;
+std::size_t stride_of(std::size_t n, std::size_t of_many) { return n > kMany ? of_many : 1; }
+
 // Value i strictly inside stratum stratum(i) of `count`, no farther than amount / 2 strata from its middle.
 template <class Stratum>
 void check_strata(std::string_view axis, const std::vector<double>& values, std::uint64_t count, double amount,
                   const Stratum& stratum, Worst& worst) {
   // Rounded in strata, where the jitter is added to 1/2 and to the stratum's number, and once more as a place.
   const Quad reach = oracle::widen(0.5 * amount) + oracle::widen(static_cast<double>(count) * 0x1p-52 + 0x1p-53);
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size(); i += stride_of(values.size(), 61)) {
     const Quad offset =
         oracle::widen(values[i]) * static_cast<Quad>(count) - static_cast<Quad>(stratum(i)) - oracle::widen(0.5);
     if (!(oracle::abs(offset) < oracle::widen(0.5) || (count == 1 && values[i] == 0)) || oracle::abs(offset) > reach) {
@@ -176,6 +182,16 @@ void check_rooks(const Set& set, Worst& worst) {
   const std::uint64_t n = set.x.size();
   check_strata(
       "x", set.x, n, 1, [](std::size_t i) { return i; }, worst);
+  if (n > kMany && (n & (n - 1)) == 0) {
+    // Rows of a power of two are told without rounding, and without sorting.
+    std::vector<bool> taken(n);
+    for (const double y : set.y) {
+      const auto row = static_cast<std::size_t>(y * static_cast<double>(n));
+      if (!(y >= 0 && y < 1) || taken[row]) return worst.fault(fmt::format("row {} has two points", row));
+      taken[row] = true;
+    }
+    return;
+  }
   std::vector<double> y = set.y;
   std::sort(y.begin(), y.end());
   check_strata(
@@ -202,11 +218,9 @@ Set fixed_set(std::string_view name, std::size_t n, const std::vector<std::size_
 }
 
 void check_instance(const Set& all, std::string_view name, std::string_view instance, Worst& worst) {
-  // Of very many every fifth: the last digits of their numbers take all values, and so do the first.
-  constexpr std::size_t kMany = 1 << 20;
   std::vector<std::size_t> numbers;
-  const std::size_t n = all.x.size();
-  for (std::size_t i = 0; i<n; i += n> kMany ? 5 : 1) numbers.push_back(i);
+  const std::size_t n = all.x.size(), stride = stride_of(n, name == "zaremba" ? 7 : 61);
+  for (std::size_t i = 0; i < n; i += stride) numbers.push_back(i);
   Set got(numbers.size(), !all.t.empty());
   for (std::size_t at = 0; at < numbers.size(); ++at) {
     got.x[at] = all.x[numbers[at]];
@@ -285,7 +299,7 @@ void check_area(Chance& chance, const PatternChoice& choice, Draw draw, Case& c)
   if (choice.has_time()) check_range("t", set.t, 1, c.worst);
 }
 
-bool is_large(CaseKey key) { return key.index % kLargeEvery == 0; }
+bool is_large(CaseKey key) { return key.index % kLargeEvery < std::size(kLarge); }
 
 Case run_case_of(CaseKey key) {
   Chance chance("patterns", key);
@@ -294,8 +308,7 @@ Case run_case_of(CaseKey key) {
   const auto coordinate = [&] { return static_cast<std::int64_t>(chance.bits()); };
   const Pixel pixel{coordinate(), coordinate()};
   if (is_large(key)) {
-    constexpr std::string_view kLarge[] = {"zaremba", "hammersley", "n-rooks", "random", "jittered"};
-    c.text = std::string(kLarge[key.index / kLargeEvery % std::size(kLarge)]);
+    c.text = std::string(kLarge[key.index % kLargeEvery]);
     c.severity = kMaxSamples;
     check_pixel(PatternChoice(parse_spec(c.text, "stress")), kMaxSamples, draw, pixel, c);
   } else {

@@ -4,7 +4,8 @@
 // The limit. Distances are those that the program rounds to doubles: x - d, and for radial filters the root of the sum
 // of squares. A weight then errs by what its kernel claims and one rounding; sums of n terms by the additions that a
 // term goes through times the sum of |k|. What that does to a quotient, to a control variate and to the choice between
-// them is propagated in Interval; the condition number is sum |k| over |sum k|.
+// them is propagated in Interval; the condition number is sum |k| over |sum k|. Importance estimators weigh by signs
+// alone; what is hard of them, the inverse of the filter's distribution, is in inverse_case.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@
 #include "stress/ball_kernel.h"
 #include "stress/chance.h"
 #include "stress/family.h"
+#include "stress/inverse_case.h"
 #include "stress/scenes.h"
 #include "stress/worst.h"
 
@@ -32,6 +34,8 @@ namespace {
 
 using oracle::Quad;
 
+// One case in so many inverts a distribution; prime to the number of filters, so that all filters have both kinds.
+constexpr std::uint64_t kInverseEvery = 7;
 constexpr int kJudged = 3;  // pixels of an image that are looked at, all others only rendered
 
 constexpr std::string_view kFilters[] = {"catmull-rom",
@@ -69,6 +73,9 @@ double size(Quad a) { return std::fabs(static_cast<double>(a)); }
 class Weights {
  public:
   explicit Weights(const Filter& filter) : filter_(filter), truth_(filter) {}
+
+  // The published one, pixels.
+  double radius() const { return truth_.radius(); }
 
   // Of a sample at (x, y) in its cell for the pixel (dx, dy) cells away.
   Interval at(double x, double y, int dx, int dy) {
@@ -138,9 +145,12 @@ bool is_inside(const TestImage& scene, Pixel pixel, double x, double y) {
   return inside != 0;
 }
 
-Sums sums_of(const TestImage& scene, const Pattern& pattern, const Filter& filter, Weights& weights, Pixel pixel) {
+Sums sums_of(const TestImage& scene, const Pattern& pattern, Weights& weights, Pixel pixel) {
   Sums s;
-  const int reach = filter.apron();
+  // All cells that touch the window, be their samples' weights nothing: by the published radius, as the program's own
+  // apron is what is judged.
+  const double r = weights.radius();
+  const int reach = static_cast<int>(std::floor(r + 0.5));
   const auto n = static_cast<std::size_t>(pattern.n());
   std::vector<double> x(n), y(n);
   for (int dy = reach; dy >= -reach; --dy) {
@@ -161,7 +171,7 @@ Sums sums_of(const TestImage& scene, const Pattern& pattern, const Filter& filte
           s.kf.error += w.error;
           s.naive_kf += naive;
         }
-        const double r = filter.radius(), own_x = x[i] - 0.5, own_y = y[i] - 0.5;
+        const double own_x = x[i] - 0.5, own_y = y[i] - 0.5;
         if (dx == 0 && dy == 0 && own_x >= -r && own_x < r && own_y >= -r && own_y < r) {
           s.own += 1;
           s.own_inside += f;
@@ -194,7 +204,7 @@ Interval varied(const Sums& s, double mean, double rho) {
 
 Measured measured(Pixel pixel, int width, double got, const Interval& want, double naive) {
   Measured m;
-  m.quantity = "pixel";
+  m.quantity = "pixel (row-major)";
   m.at = static_cast<double>(pixel.y * width + pixel.x);
   m.computed = got;
   m.wanted = static_cast<double>(want.value);
@@ -241,6 +251,10 @@ int judge(Estimator estimator, const Sums& s, double rho, double centre, Pixel p
 
 Case run_case_of(CaseKey key) {
   Chance chance("reconstruction", key);
+  if (key.index % kInverseEvery == kInverseEvery - 1) {
+    return inverse_case(chance,
+                        Filter(parse_spec(kFilters[key.index / kInverseEvery % std::size(kFilters)], "stress")));
+  }
   const Filter filter(parse_spec(kFilters[key.index % std::size(kFilters)], "stress"));
   const Estimator estimator = chance.pick(kEstimators);
   const PatternChoice choice(parse_spec(chance.pick(kPatterns), "stress"));
@@ -249,7 +263,8 @@ Case run_case_of(CaseKey key) {
   const Grid grid{1 + static_cast<int>(chance.below(5)), 1 + static_cast<int>(chance.below(5))};
   const Scene scene = hard_scene(chance, grid);
   const Pattern pattern(choice, n, draw);
-  const ActiveRows rows = enumerate(scene.image, filter.radius());
+  Weights weights(filter);
+  const ActiveRows rows = enumerate(scene.image, weights.radius());
   const Rendered rendered = render(scene.image, pattern, filter, estimator, rows);
 
   Case c;
@@ -258,14 +273,13 @@ Case run_case_of(CaseKey key) {
   // Pixels that fell back are counted over active ones: all of them, where these are few enough to be looked at.
   const std::size_t count = rendered.value.size();
   const std::size_t first = count > kJudged ? chance.below(count - kJudged + 1) : 0;
-  Weights weights(filter);
   std::size_t index = 0;
   std::int64_t least = 0, most = 0;
   for_each_rendered(rows, rendered, [&](int x, int y, Cover cover, double value) {
     const std::size_t at = index++;
     if (at < first || at >= first + kJudged) return;
     const Pixel pixel{x, y};
-    const Sums s = sums_of(scene.image, pattern, filter, weights, pixel);
+    const Sums s = sums_of(scene.image, pattern, weights, pixel);
     const double centre = is_inside(scene.image, pixel, 0.5, 0.5) ? 1 : 0;
     const int fell = judge(estimator, s, n, centre, pixel, grid.width, value, c);
     if (cover == Cover::partial) {
@@ -283,7 +297,7 @@ Outcome run(CaseKey key) { return run_case_of(key).outcome(); }
 
 std::string describe(CaseKey key) {
   const Case c = run_case_of(key);
-  return fmt::format("pixel {} (row-major) of {}", c.worst.worst().at, c.text);
+  return fmt::format("{} {} of {}", c.worst.worst().quantity, c.worst.worst().at, c.text);
 }
 
 }  // namespace
@@ -292,7 +306,7 @@ extern const Family reconstruction;
 constinit const Family reconstruction = {
     .name = "reconstruction",
     .title = "1 to 4 samples a pixel, deep negative lobes, vanishing weight sums, windows without samples",
-    .quantity = "pixels of ratio, control-variate and unnormalised estimators",
+    .quantity = "pixels of ratio, control-variate and unnormalised estimators; inverse distributions of importance",
     .severity = "sum |k| over |sum k|",
     .claim = "kernel errors and roundings, propagated; sum k < rho / 4 decided as documented",
     .share = 0.3,

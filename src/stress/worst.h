@@ -21,11 +21,14 @@ struct Measured {
 
 class Worst {
  public:
-  // The naive error of a case is the largest of its values'.
+  // The naive error of a case is the largest of its values'. NaN, be it the value, its error or a bound, is the worst
+  // there is: without an error, too.
   void see(const Measured& m) {
     const double allowed = m.bound + m.oracle_error;
     double close = m.error == 0 ? 0 : m.error / allowed;
-    if (std::isnan(close) || std::isnan(m.computed)) close = std::numeric_limits<double>::infinity();
+    if (std::isnan(close) || std::isnan(m.computed) || std::isnan(allowed)) {
+      close = std::numeric_limits<double>::infinity();
+    }
     if (seen_++ == 0 || close > close_) {
       close_ = close;
       worst_ = m;

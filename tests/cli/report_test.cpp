@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "reports/html.h"
+#include "reports/json.h"
 #include "reports/page_reading.h"
 #include "run_ok.h"
 
@@ -97,13 +98,145 @@ TEST_SUITE("cli") {
     check_error(run_program({"report", folder / "no"}), 3, folder / "no");
     fs::create_directory(folder / "empty");
     check_error(run_program({"report", folder / "empty"}), 2, "holds no results; give a folder of moire run");
-    check_error(run_program({"report", folder.write("x.jsonl", "{}\n")}), 2, "x.jsonl: has the schema \"\"");
-    check_error(run_program({"report", folder.write("y.jsonl", "no JSON")}), 2, "y.jsonl");
-    const std::string header =
-        "{\"kind\":\"header\",\"schema\":\"moire.results/1\",\"study\":{\"name\":\"x\",\"text\":\"\"}}\n";
+    check_error(run_program({"report", folder.write("x.jsonl", "{}\n")}), 2, "x.jsonl: is no results file of moire");
+    for (const char* text : {"no JSON", "", "\n", "scene,pattern\nedge,jittered\n", "[1]\n", "\xff\xfe\n"}) {
+      check_error(run_program({"report", folder.write("y.jsonl", text)}), 2,
+                  "y.jsonl: is no results file of moire; give a run's folder or its results.jsonl");
+    }
+    check_error(run_program({"report", folder.write("s.jsonl", "{\"schema\":\"moire.other/1\"}\n")}), 2,
+                "s.jsonl: has the schema \"moire.other/1\"");
+    const std::string header = json_header(tool(), host(), {"x", ""}) + "\n";
     check_error(run_program({"report", folder.write("z.jsonl", header + "{\"kind\":\"line\"}\n{\"kind\":\"row\"}\n")}),
                 2, "z.jsonl:2: is not a row of results");
     check_error(run_program({"report", folder / "empty", "--budget", "0.1"}), 2, "--budget: \"0.1\" is not possible");
+  }
+
+  TEST_CASE("a header that lacks what a page shows, and rows that a page cannot take, are refused with their line") {
+    const Folder folder;
+    run_ok({"run", folder.write("a.toml", kStudy), "-o", folder / "a"});
+    const std::vector<std::string> lines = lines_of(read_file(folder / "a/results.jsonl"));
+    REQUIRE(lines.size() == 13);
+    // The file with line `number` changed by `change`.
+    const auto refused = [&](std::size_t number, const auto& change, const std::string& text) {
+      std::string bytes;
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        page::Json line = page::Json::parse(lines[i]);
+        if (i + 1 == number) change(line);
+        bytes += line.dump() + "\n";
+      }
+      check_error(run_program({"report", folder.write("b.jsonl", bytes)}), 2,
+                  "b.jsonl:" + std::to_string(number) + ": " + text);
+    };
+    for (const char* part : {"study", "tool", "host"}) {
+      refused(
+          1, [&](page::Json& line) { line.erase(part); }, "the header lacks \"" + std::string(part) + ".");
+      refused(
+          1, [&](page::Json& line) { line[part] = 1; }, "the header lacks \"" + std::string(part) + ".");
+    }
+    refused(
+        1, [](page::Json& line) { line["study"].erase("sha256"); }, "the header lacks \"study.sha256\", a text");
+    refused(
+        1, [](page::Json& line) { line["host"]["cores"] = "2"; }, "the header lacks \"host.cores\", an integer");
+    refused(
+        3, [&](page::Json& line) { line = page::Json::parse(lines[1]); },
+        "\"edge jittered 1 box ratio 0\" stands in line 2");
+    refused(
+        4, [](page::Json& line) { line["rmse_active"] = "0.1"; }, "\"rmse_active\" must be a number or null");
+    refused(
+        2, [](page::Json& line) { line["time_render_ns"] = true; }, "\"time_render_ns\" must be a number");
+    for (const auto& spp : {page::Json(0), page::Json(-4), page::Json(1.5), page::Json("4"), page::Json()}) {
+      refused(
+          5, [&](page::Json& line) { line["spp"] = spp; }, "\"spp\" must be an integer from 1 on");
+    }
+    refused(
+        6, [](page::Json& line) { line.erase("trial"); }, "\"trial\" must be an integer from 0 on");
+    refused(
+        7, [](page::Json& line) { line["scene"] = 3; }, "\"scene\" must be a text");
+    refused(
+        8, [](page::Json& line) { line["status"] = 3; }, "\"status\" is of another type than in the lines above");
+    refused(
+        9, [](page::Json& line) { line["scene"] = "a|b"; }, "the scene \"a|b\" has a '|'");
+  }
+
+  TEST_CASE("a run that was stopped has a page of what is there, which says how much that is") {
+    if (!has_page()) return;
+    const Folder folder;
+    for (const auto& [name, study] : {std::pair("images", kStudy), std::pair("sets", kDiscrepancies)}) {
+      const std::string out = folder / name;
+      run_ok({"run", folder.write(std::string(name) + ".toml", study), "-o", out});
+      const std::vector<std::string> lines = lines_of(read_file(out + "/results.jsonl"));
+      const std::string whole = page::without_times(page::data_of(read_file(out + "/index.html")));
+      const auto page_of_lines = [&](const std::vector<std::size_t>& kept, const std::string& notice) {
+        std::string bytes = lines[0] + "\n";
+        for (const std::size_t i : kept) bytes += lines[i] + "\n";
+        folder.write(std::string(name) + "/results.jsonl", bytes);
+        const Outcome outcome = run_program({"report", out});
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+        const page::Json data = page::data_of(read_file(out + "/index.html"));
+        const page::Json& run = data.at("runs").at(0);
+        CHECK(run.contains("notices") == !notice.empty());
+        if (notice.empty()) {
+          CHECK(outcome.err.empty());
+        } else {
+          CHECK(outcome.err == "note: page: " + out + ": " + run.at("notices").at(0).get<std::string>() + "\n");
+          CHECK(run.at("notices").at(0).get<std::string>().find(notice) != std::string::npos);
+        }
+        return data;
+      };
+      const std::size_t rows = lines.size() - 1;
+      const std::string of_rows = " of the " + std::to_string(rows) + " rows of its study";
+      page_of_lines({}, "0" + of_rows);
+      page_of_lines({1, 2, 3}, "3" + of_rows);
+      // Rows in any order, as a run that was killed leaves them, are put into that of the study.
+      std::vector<std::size_t> backwards;
+      for (std::size_t i = rows; i > 0; --i) backwards.push_back(i);
+      CHECK(page::without_times(page_of_lines(backwards, "")) == whole);
+    }
+    // Means of sets are over the trials that are there: of 16 jittered points both, of 64 the first. The file is still
+    // backwards.
+    const std::vector<std::string> lines = lines_of(read_file(folder / "sets/results.jsonl"));
+    folder.write("sets/results.jsonl", lines[0] + "\n" + lines.back() + "\n" + lines[lines.size() - 2] + "\n" +
+                                           lines[lines.size() - 3] + "\n" + "{\"kind\":\"ro");
+    const Outcome outcome = run_program({"report", folder / "sets"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("The last line of the results is cut") != std::string::npos);
+    const page::Json part = page::data_of(read_file(folder / "sets/index.html")).at("runs").at(0);
+    const page::Json summary = page::unpacked(part.at("tables").at("summary"));
+    CHECK(summary.at("length") == 2);
+    CHECK(page::cell(summary, "trials", 0) == 2);
+    CHECK(page::cell(summary, "trials", 1) == 1);
+  }
+
+  TEST_CASE("a page that cannot be written is told before the runs are read") {
+    const Folder folder;
+    folder.write("file", "");
+    check_error(run_program({"report", folder / "no", "-o", folder / "gone/x.html"}), 3,
+                "gone/x.html: cannot be written");
+    check_error(run_program({"report", folder / "no", "-o", folder / "file/x.html"}), 3,
+                "file/x.html: cannot be written");
+    fs::create_directory(folder / "sub");
+    check_error(run_program({"report", folder / "no", "-o", folder / "sub"}), 3, "cannot be written: it is a folder");
+    check_error(run_program({"report", folder / "no", "-o", folder / "x.html"}), 3, folder / "no");
+    CHECK(std::distance(fs::directory_iterator(folder / ""), fs::directory_iterator()) == 2);  // nothing is left behind
+  }
+
+  TEST_CASE("stress and bench write the page of their folder, and report makes the same again") {
+    if (!has_page()) return;
+    const Folder folder;
+    const std::string study = folder.write("a.toml", kStudy);
+    for (const std::vector<std::string>& args :
+         {std::vector<std::string>{"stress", "--cases", "20", "--family", "edges"},
+          {"bench", study, "--repeats", "1"}}) {
+      const std::string out = folder / args[0];
+      std::vector<std::string> words = args;
+      words.insert(words.end(), {"-o", out});
+      CHECK(run_ok(words).out.ends_with("report: " + out + "/report.md\nreport: " + out + "/index.html\n"));
+      const std::string page = read_file(out + "/index.html");
+      run_ok({"report", out});
+      CHECK(read_file(out + "/index.html") == page);
+    }
+    check_error(run_program({"stress", "--family", "edges,edges"}), 2, "--family: \"edges\" is listed twice");
   }
 
   TEST_CASE("report writes what a browser draws as figures, under names that stay in the folder") {

@@ -22,8 +22,9 @@ export function launch(also = []) {
   return chromium.launch({ executablePath: process.env.MOIRE_CHROMIUM, args });
 }
 
-/** A tab with that file. `page.faults` collects requests that leave the disk, errors and refusals. */
-export async function open(browser, file, { hash = "", scheme = "light", width = 1280, height = 900 } = {}) {
+/** A tab with that file, once `ready` is there. `page.faults` has requests that leave the disk, errors and refusals. */
+export async function open(browser, file, options = {}) {
+  const { hash = "", scheme = "light", width = 1280, height = 900, ready = "main section" } = options;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, acceptDownloads: true });
   const page = await context.newPage();
   page.faults = [];
@@ -36,7 +37,7 @@ export async function open(browser, file, { hash = "", scheme = "light", width =
     if (message.type() === "error" || message.type() === "warning") page.faults.push(`console: ${message.text()}`);
   });
   await page.goto(pathToFileURL(file).href + hash);
-  await page.locator("main section").first().waitFor();
+  await page.locator(ready).first().waitFor({ state: "attached" });
   return page;
 }
 

@@ -2,12 +2,12 @@
 // accessibility in both themes, print, tables, charts and what the reader takes away from them.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { close, kAxe, launch, open, section } from "./browser.mjs";
-import { kProgram, kRuns, pageOf } from "./runs.mjs";
+import { dataOf, kProgram, kRuns, pageOf, unpack, withData } from "./runs.mjs";
 
 const kSections = {
   quick: ["overview", "convergence", "time-error", "images", "discrepancy"], // the last: points of its patterns
@@ -132,6 +132,131 @@ test("the theme follows the system until the reader chooses, and print is light 
   const pdf = await page.pdf();
   assert.equal(pdf.toString("latin1", 0, 5), "%PDF-");
   assert.equal(await page.locator(".waiting").count(), 0);
+  await close(page);
+});
+
+test("a link to a section opens there, whatever is drawn around it meanwhile", async () => {
+  const file = path.join(kRuns, "all.html");
+  for (const [run, id] of [
+    ["quick", "images"],
+    ["quick", "time-error"],
+    ["noise", "spectra"],
+    ["filters", "filters"],
+    ["mitchell92", "discrepancy"],
+  ]) {
+    const page = await open(browser, file, { hash: `#run=${run}&section=${id}` });
+    await page.waitForFunction(() => document.querySelector(".waiting, [aria-busy=true]") === null);
+    await page.waitForTimeout(700); // longer than the page waits for the last change of size
+    const { top, end } = await page.locator(`section[id="${id}"] h2`).evaluate((h2) => ({
+      top: h2.getBoundingClientRect().top,
+      end: innerHeight + scrollY >= document.documentElement.scrollHeight - 2,
+    }));
+    // Below the bar of sections and within the section's own margin; a page that ends there cannot scroll as far.
+    assert.ok(top > 30 && (top < 120 || (end && top < 900)), `${id} of ${run}: its heading is at ${top}`);
+    await page.mouse.wheel(0, -300);
+    await page.waitForTimeout(300);
+    const later = await page.locator(`section[id="${id}"] h2`).evaluate((h2) => h2.getBoundingClientRect().top);
+    assert.ok(later > top + 200, `${id} of ${run}: whoever scrolls stays there, ${later} after ${top}`);
+    await close(page);
+  }
+});
+
+test("images that found no room in the page are listed, even where it holds none at all", async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), "moire-report-"));
+  const data = dataOf(pageOf("noise"));
+  const [run] = data.runs;
+  run.left_out = run.images
+    .filter((image) => image.kind !== "exact")
+    .map(({ file, kind, scene }) => ({ file, label: `${kind}: ${scene}` }));
+  run.images = [];
+  const file = path.join(folder, "index.html");
+  writeFileSync(file, withData(pageOf("noise"), data));
+  const page = await open(browser, file);
+  for (const [id, own] of [
+    ["images", (image) => image.endsWith(".error.exr")],
+    ["spectra", (image) => /\.(spectrum|structured|noise)\.exr$/.test(image)],
+  ]) {
+    const links = (await section(page, id)).getByTestId("left-out").locator("a");
+    await links.first().waitFor();
+    const want = run.left_out.filter((one) => own(one.file)).map((one) => one.file);
+    assert.ok(want.length > 0);
+    const hrefs = await links.evaluateAll((all) => all.map((a) => decodeURIComponent(a.getAttribute("href"))));
+    assert.deepEqual(hrefs, want);
+  }
+  await close(page);
+  rmSync(folder, { recursive: true });
+});
+
+test("without an error at equal time there is a dash and a reason, and the best of one is not said to be best", async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), "moire-report-"));
+  const data = dataOf(pageOf("quick"));
+  const ranking = unpack(data.runs[0].tables.ranking);
+  const column = (name) => {
+    const cells = ranking.columns[name];
+    return Array.isArray(cells) ? cells : new Array(ranking.length).fill(cells.all);
+  };
+  const [scenes, patterns] = [column("scene"), column("pattern")];
+  // On "edge" all but one pattern are too slow, on "disk" one is.
+  for (const name of ["relative_at_equal_time", "rank_at_equal_time"]) {
+    ranking.columns[name] = column(name).map((_, i) => {
+      const timed = scenes[i] === "edge" ? patterns[i] === "regular" : patterns[i] !== "regular";
+      return timed ? 1 : null;
+    });
+  }
+  data.runs[0].tables.ranking = ranking;
+  const file = path.join(folder, "index.html");
+  writeFileSync(file, withData(pageOf("quick"), data));
+  const page = await open(browser, file);
+  const cards = (await section(page, "overview")).getByTestId("ranking");
+  const card = (scene) => cards.filter({ has: page.getByRole("heading", { name: scene, exact: true }) });
+  assert.doesNotMatch(await card("edge").locator("p").first().textContent(), /equal time/);
+  assert.match(await card("disk").locator("p").first().textContent(), /At equal time \S+ is best/);
+  for (const [scene, dashes] of [
+    ["edge", new Set(patterns).size - 1],
+    ["disk", 1],
+  ]) {
+    const missing = card(scene).locator("tbody td:last-child", { hasText: "–" });
+    assert.equal(await missing.count(), dashes, scene);
+    assert.match(await missing.first().locator("[title]").getAttribute("title"), /takes longer/);
+    assert.match(await card(scene).locator("p.note").textContent(), /takes longer/);
+  }
+  await close(page);
+  rmSync(folder, { recursive: true });
+});
+
+test("a pattern has one colour in all runs of a page", async () => {
+  const page = await open(browser, path.join(kRuns, "all.html"));
+  const looks = new Map();
+  for (const run of ["quick", "noise", "filters"]) {
+    await page.getByTestId("choose-run").selectOption(run);
+    const named = (await section(page, "overview")).getByTestId("ranking").locator(".named");
+    for (const [name, look] of await named.evaluateAll((all) =>
+      all.map((one) => [one.textContent, one.querySelector(".swatch").innerHTML]),
+    )) {
+      const plain = look.replace(/plot-[0-9a-z]+/g, "");
+      assert.equal(plain, looks.get(name) ?? plain, `${name} in ${run}`);
+      looks.set(name, plain);
+    }
+  }
+  await close(page);
+});
+
+test("figures of several runs are named after their run and show their title", async () => {
+  const file = path.join(kRuns, "all.html");
+  const page = await open(browser, file, { hash: "#figures=1", ready: "#moire-figures" });
+  const figures = JSON.parse(await page.locator("#moire-figures").textContent());
+  assert.equal(new Set(figures.map((one) => one.name)).size, figures.length);
+  for (const { name } of figures) assert.match(name, /^(quick|noise|filters|mitchell92)_[a-z0-9._=-]+$/);
+  for (const name of ["quick_convergence_edge_box", "filters_kernel", "filters_edge-profile", "filters_response"]) {
+    const figure = figures.find((one) => one.name === name);
+    assert.ok(figure, `${name} among ${figures.map((one) => one.name)}`);
+    const title = await page.evaluate((text) => {
+      const svg = new DOMParser().parseFromString(text, "image/svg+xml");
+      return [svg.querySelector("title").textContent, svg.querySelector("svg > text").textContent];
+    }, figure.svg);
+    assert.equal(title[0], title[1]);
+    await checkSvg(page, figure.svg);
+  }
   await close(page);
 });
 

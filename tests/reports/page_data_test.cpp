@@ -192,6 +192,23 @@ TEST_SUITE("io") {
     CHECK(page::unpacked(part.at("left_out")).empty());
   }
 
+  TEST_CASE("tables above the budget are told, in the page as well, and so is what a run lacks") {
+    const Folder folder;
+    PageRun run = small_run(folder);
+    run.notices = {"It is <not> complete."};
+    const PageData page = page_data(std::span(&run, 1), run.folder, 1000);
+    REQUIRE(page.notices.size() == 2);
+    CHECK(page.notices[0] == run.folder + ": It is <not> complete.");
+    CHECK(page.notices[1].find("The tables alone are as large as the run's share of the page's --budget") !=
+          std::string::npos);
+    const Json part = Json::parse(page.json).at("runs").at(0);
+    CHECK(part.at("images").empty());
+    REQUIRE(part.at("notices").size() == 2);
+    CHECK(part.at("notices").at(0) == "It is <not> complete.");
+    CHECK(run.folder + ": " + part.at("notices").at(1).get<std::string>() == page.notices[1]);
+    CHECK(!data_of(small_run(folder)).at("runs").at(0).contains("notices"));
+  }
+
   TEST_CASE("rows that name files elsewhere, or lack what is said of an image, have none in the page") {
     const Folder folder;
     PageRun run = small_run(folder);

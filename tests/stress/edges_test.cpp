@@ -39,6 +39,21 @@ TEST_SUITE("unit") {
     CHECK_FALSE(passes(judged(c, {got.value, std::nan("")}, truth)));
   }
 
+  TEST_CASE("a bound above what is promised fails, however true: of edges, tiny disks and boards") {
+    const ExactCase cases[] = {
+        through_the_centre(),
+        {scenes::disk({4.5, 4.5}, 1e-6), {4, 4}, checked_filter("tent")},
+        {scenes::board({0.7, 0.1, 0, -0.2, 0.9, 0, 1e-3, 2e-3, 1}, {-8, 8, -8, 8}), {2, 3}, checked_filter("mitchell")},
+        {scenes::plane(scenes::Camera{.principal = {32, 32}, .pitch = 0}), {32, 31}, checked_filter("box")}};
+    for (const ExactCase& c : cases) {
+      const Exact got = exact_pixel(c.image, c.filter->filter, c.pixel);
+      const oracle::Value truth{static_cast<long double>(got.value), 0};
+      CHECK(passes(judged(c, got, truth)));
+      CHECK_FALSE(passes(judged(c, {got.value, 0.5}, truth)));
+      CHECK_FALSE(passes(judged(c, {got.value, 1.1 * promised_bound(c)}, truth)));
+    }
+  }
+
   TEST_CASE("a value that claims more than it has fails") {
     const ExactCase c{scenes::edge({4.3, 4.4}, Vec2{0.6, 0.8}), {4, 4}, checked_filter("mitchell")};
     const oracle::Value truth = true_value(c.image, *c.filter, c.pixel);

@@ -20,6 +20,8 @@ TEST_SUITE("unit") {
     double naive = 0;
     for (std::uint64_t i = 0; i < 300; ++i) naive = std::fmax(naive, run_case(reconstruction, {1, i}).naive_error);
     CHECK(naive > 1);
+    // Every seventh inverts a distribution; the others are pictures.
+    CHECK(reconstruction.describe({1, 6}).find("inverse distribution of --filter ") != std::string::npos);
     const std::string text = reconstruction.describe({1, 5});
     for (const char* word : {"kind = ", "--pattern ", "--filter ", "--estimator ", "--spp "}) {
       CHECK(text.find(word) != std::string::npos);

@@ -63,7 +63,8 @@ function lineMarks(frame: Frame, line: Line, points: Point[], style: SeriesStyle
     marks.push(Plot.ruleX(banded, { x: "x", y1: lower, y2: "hi", stroke: style.color, strokeOpacity: 0.6, className }));
   }
   if (line.line) {
-    const stroke = { stroke: style.color, strokeWidth: line.part ? 1.5 : 1.75, strokeDasharray: dash(line, style) };
+    const strokeWidth = frame.spec.front ? 1 : line.part ? 1.5 : 1.75;
+    const stroke = { stroke: style.color, strokeWidth, strokeDasharray: dash(line, style) };
     // A gap where the axis cannot show a point: a line across it would say what nobody measured.
     const shown = new Set(points);
     const y = (point: Point): number => (shown.has(point) ? point.y : NaN);
@@ -176,9 +177,9 @@ function extraMarks(frame: Frame, styles: SeriesStyles, series: Map<string, numb
   const marks: Plot.Markish[] = [];
   const front = frame.spec.front ?? [];
   if (front.length > 0) {
-    const line = { stroke: kInk, strokeOpacity: 0.75, strokeWidth: 1.5, curve: "step-after" } as const;
+    const line = { stroke: kInk, strokeWidth: 2.5, curve: "step-after" } as const;
     marks.push(Plot.line(front, { x: "x", y: "y", ...line }));
-    marks.push(Plot.dot(front, { x: "x", y: "y", r: 7, stroke: kInk, strokeWidth: 1.5, fill: "none" }));
+    marks.push(Plot.dot(front, { x: "x", y: "y", r: 7, stroke: kInk, strokeWidth: 2, fill: "none" }));
   }
   const rings = frame.spec.rings ?? [];
   const wanted = rings.map((ring) => (1 - frame.y.at(ring.y)) * frame.height - 10);

@@ -7,6 +7,7 @@ import { button, el } from "./dom";
 import type { Highlight } from "./highlight";
 import { csvText, download, standaloneSvg } from "./save";
 import type { SeriesStyles } from "./series_style";
+import { breakable } from "./text";
 import { hideTip, showTip } from "./tip";
 
 /** The size in which charts leave the page, whatever the window; end labels stand beside it. */
@@ -19,6 +20,8 @@ export interface CardOptions {
   aspect?: number; // height over width, 0.72 without it
 }
 
+const kTitleHeight = 28; // above the chart, in a file
+
 const kDense = 16; // points of a curve that needs no markers in print
 const kReach = 40; // pixels from the pointer to a point that it names
 
@@ -30,7 +33,7 @@ export function figureSvg(spec: ChartSpec, styles: SeriesStyles): string {
   const figure = { ...spec, lines, end_labels: !spec.square };
   const width = kFigureSize.width + Math.ceil(endLabelWidth(figure));
   const { svg } = drawChart(figure, styles, spec.square ? kSquareSize : { ...kFigureSize, width });
-  return standaloneSvg(svg, spec.title);
+  return standaloneSvg(svg, spec.title, kTitleHeight);
 }
 
 /** Draws itself again whenever its width changes, so that text keeps its size. */
@@ -54,7 +57,7 @@ export function chartCard(spec: ChartSpec, options: CardOptions): HTMLElement {
       download(`${spec.name}.csv`, "text/csv", csvText(chartCsv(spec))),
     ),
   );
-  const caption = el("figcaption", {}, el("span", { class: "chart-title" }, spec.title), tools);
+  const caption = el("figcaption", {}, el("span", { class: "chart-title" }, breakable(spec.title)), tools);
   const card = el("figure", { class: "chart", "data-testid": "chart", "data-name": spec.name }, caption, plot);
   let width = 0;
   const draw = (): void => {

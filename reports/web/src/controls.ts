@@ -4,6 +4,7 @@ import { swatch } from "./series_style";
 import type { SeriesStyles } from "./series_style";
 import type { PageState } from "./state";
 import type { Highlight } from "./highlight";
+import { breakable } from "./text";
 
 const kSeparator = "|"; // no name of a scene, filter or pattern holds it
 
@@ -163,7 +164,7 @@ export function legend(
       if (!hidden.delete(key)) hidden.add(key);
       Hidden.store(state, hidden);
     });
-    item.append(swatch(styles.of(key)), key);
+    item.append(swatch(styles.of(key)), el("span", {}, breakable(key)));
     item.addEventListener("pointerenter", () => highlight.set(key));
     item.addEventListener("pointerleave", () => highlight.set(undefined));
     item.addEventListener("focus", () => highlight.set(key));
@@ -203,7 +204,7 @@ export function colourKey(
   markers: boolean,
 ): HTMLElement {
   const items = keys.map((key) => {
-    const item = el("span", { class: "series" }, swatch(styles.of(key), markers), key);
+    const item = el("span", { class: "series" }, swatch(styles.of(key), markers), el("span", {}, breakable(key)));
     item.addEventListener("pointerenter", () => highlight.set(key));
     item.addEventListener("pointerleave", () => highlight.set(undefined));
     return item;

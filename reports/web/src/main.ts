@@ -4,7 +4,7 @@ import { writeFigures } from "./figures";
 import { Highlight } from "./highlight";
 import { Shell } from "./shell";
 import type { Page, Section } from "./page";
-import { RunData } from "./run_data";
+import { distinct, RunData } from "./run_data";
 import { SCHEMA_MAJOR } from "./schema";
 import type { Report } from "./schema";
 import { convergence } from "./sections/convergence";
@@ -41,16 +41,13 @@ function readReport(): Report {
   return report;
 }
 
-async function pageOf(run: Report["runs"][number], state: PageState, theme: Theme, root: HTMLElement): Promise<Page> {
-  const data = await RunData.load(run);
-  return {
-    data,
-    state,
-    theme,
-    styles: new SeriesStyles(data.allSeries),
-    filter_styles: new SeriesStyles(wellKnownFirst(data.filters)),
-    highlight: new Highlight(root),
-  };
+/** A page for each run. A pattern, and a filter, has one look in all of them: readers switch between runs. */
+async function pagesOf(report: Report, state: PageState, theme: Theme, root: HTMLElement): Promise<Page[]> {
+  const runs = await Promise.all(report.runs.map((run) => RunData.load(run)));
+  const styles = new SeriesStyles(runs.flatMap((data) => data.allSeries));
+  const filter_styles = new SeriesStyles(wellKnownFirst(distinct(runs.flatMap((data) => data.filters))));
+  const highlight = new Highlight(root);
+  return runs.map((data) => ({ data, state, theme, styles, filter_styles, highlight }));
 }
 
 async function start(): Promise<void> {
@@ -59,18 +56,18 @@ async function start(): Promise<void> {
   const theme = new Theme();
   const root = el("main", { id: "main" });
   if (state.get("figures") === "1") {
-    const pages = await Promise.all(report.runs.map((run) => pageOf(run, state, theme, root)));
-    await writeFigures(pages, kSections);
+    await writeFigures(await pagesOf(report, state, theme, root), kSections);
     return;
   }
   const shell = new Shell(report, root, state, theme, kSections);
   document.body.prepend(shell.header, shell.nav, root);
-  const show = async (): Promise<void> => {
-    const run = report.runs.find((one) => one.id === state.get("run")) ?? report.runs[0];
-    if (run !== undefined) shell.show(await pageOf(run, state, theme, root));
+  const pages = await pagesOf(report, state, theme, root);
+  const show = (): void => {
+    const page = pages.find((one) => one.data.run.id === state.get("run")) ?? pages[0];
+    if (page !== undefined) shell.show(page);
   };
-  state.onChange("run", () => void show().catch(fail));
-  await show();
+  state.onChange("run", show);
+  show();
 }
 
 /** What went wrong, in the page: a blank one says nothing. */

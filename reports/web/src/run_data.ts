@@ -1,6 +1,6 @@
 // One run's tables as rows, unpacked when first asked for, and what its rows are about: scenes, filters, series.
 import { unpack } from "./decode";
-import type { Cell, Columns, FilterCurves, PointSet, RadialSpectrum, Run } from "./schema";
+import type { Cell, Columns, FilterCurves, LeftOut, PointSet, RadialSpectrum, Run } from "./schema";
 
 export type Row = Record<string, Cell>;
 
@@ -45,6 +45,7 @@ export class RunData {
   #curves: Promise<FilterCurves[]> | undefined;
   #spectra: Promise<RadialSpectrum[]> | undefined;
   #points: Promise<PointSet[]> | undefined;
+  #left_out: LeftOut[] = [];
   #several_estimators = false;
 
   private constructor(readonly run: Run) {}
@@ -58,6 +59,7 @@ export class RunData {
       const table = tables[i];
       if (table !== undefined && table.length > 0) data.#tables.set(name, toTable(table));
     });
+    data.#left_out = await unpack(run.left_out);
     data.#several_estimators =
       distinct((data.table("summary")?.rows ?? []).map((row) => str(row, "estimator"))).length > 1;
     return data;
@@ -108,6 +110,11 @@ export class RunData {
   get allSeries(): string[] {
     const rows = this.table("summary")?.rows ?? this.table("bench")?.rows ?? [];
     return distinct(rows.map((row) => this.series(row)));
+  }
+
+  /** Images that the page has no room for: spectra, or all others. */
+  leftOut(of: "spectra" | "images"): LeftOut[] {
+    return this.#left_out.filter(({ file }) => /\.(spectrum|structured|noise)\.exr$/.test(file) === (of === "spectra"));
   }
 
   curves(): Promise<FilterCurves[]> {

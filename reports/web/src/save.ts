@@ -1,5 +1,7 @@
 // Files that the reader takes away: charts as SVG that stands alone, tables and charts as CSV.
 
+import { svgEl } from "./dom";
+
 /** The light theme's values of the variables that charts use, from style.css: a file follows no theme. */
 function lightVariables(): Map<string, string> {
   const values = new Map<string, string>();
@@ -14,8 +16,11 @@ function lightVariables(): Map<string, string> {
   return values;
 }
 
-/** The chart as a file: white ground, light colours, its fonts named, and nothing that belongs to the page. */
-export function standaloneSvg(chart: SVGSVGElement, title: string): string {
+/**
+ * The chart as a file: white ground, light colours, its fonts named, and nothing that belongs to the page. The title
+ * stands above the chart in `room` pixels.
+ */
+export function standaloneSvg(chart: SVGSVGElement, title: string, room: number): string {
   const svg = chart.cloneNode(true) as SVGSVGElement;
   svg.querySelectorAll("style").forEach((style) => style.remove());
   svg.setAttribute("xmlns", "http://www.w3.org/2000/svg");
@@ -26,12 +31,12 @@ export function standaloneSvg(chart: SVGSVGElement, title: string): string {
     for (const name of ["tabindex", "data-series", "class", "role", "aria-hidden"]) element.removeAttribute(name);
     if (element.tagName !== "g") element.removeAttribute("aria-label");
   }
-  const name = document.createElementNS("http://www.w3.org/2000/svg", "title");
-  name.textContent = title;
-  const ground = document.createElementNS("http://www.w3.org/2000/svg", "rect");
-  for (const [key, value] of Object.entries({ width: "100%", height: "100%", fill: "#ffffff" }))
-    ground.setAttribute(key, value);
-  svg.prepend(name, ground);
+  const { width, height } = { width: chart.width.baseVal.value, height: chart.height.baseVal.value + room };
+  svg.setAttribute("height", String(height));
+  svg.setAttribute("viewBox", `0 ${-room} ${width} ${height}`);
+  const box = { x: 0, y: -room, width, height, fill: "#ffffff" };
+  const heading = { x: width / 2, y: 18 - room, fill: "#16191d", "text-anchor": "middle", "font-weight": 600 };
+  svg.prepend(svgEl("title", {}, title), svgEl("rect", box), svgEl("text", { ...heading, "font-size": 13 }, title));
   const light = lightVariables();
   const text = new XMLSerializer().serializeToString(svg);
   return text.replace(/var\((--[a-z0-9-]+)\)/g, (whole, variable: string) => light.get(variable) ?? whole);

@@ -15,7 +15,7 @@ export interface Columns {
   columns: Record<string, Cell[] | { all: Cell }>;
 }
 
-/** How pixels are stored: base64 of gzip (or nothing, where that is smaller) over values, bytes split into planes or not. */
+/** How pixels are stored: base64 of gzip (or nothing, where that is smaller) over values, their bytes in planes or not. */
 export interface Pixels {
   w: number;
   h: number;
@@ -101,6 +101,9 @@ export interface Run {
    * `image_rows`: the raw rows of embedded images. `summary` has `time_render_ns` (median over trials) and
    * `time_per_active_pixel_ns`, too. */
   tables: Record<string, Columns | Packed>;
+  /** What the run or its part of the page lacks (rows not run yet, files that are gone), a line of plain text each, to
+   * be shown before anything else; absent when nothing is lacking. */
+  notices?: string[];
   images: ReportImage[];
   left_out: LeftOut[] | Packed;
   filter_curves: FilterCurves[] | Packed;

@@ -1,4 +1,5 @@
 // The frame of the page: header, run switch, the bar of sections, and sections that are drawn when they come near.
+import { stayAt } from "./arrival";
 import { Choice } from "./controls";
 import { button, el } from "./dom";
 import type { Page, Section } from "./page";
@@ -16,6 +17,7 @@ export class Shell {
   readonly #links = el("ul", {});
   #waiting = new Map<HTMLElement, () => Promise<void>>();
   #near: IntersectionObserver | undefined;
+  #leave: (() => void) | undefined; // ends the stay at a section
 
   constructor(
     report: Report,
@@ -86,12 +88,16 @@ export class Shell {
           "section",
           { id: section.id, "aria-labelledby": `${section.id}-title` },
           el("h2", { id: `${section.id}-title`, tabindex: -1 }, section.title(page.data)),
-          lead !== "" && el("p", { class: "lead" }, lead),
+          lead.length > 0 && el("p", { class: "lead" }, ...lead),
           body,
         );
         this.#waiting.set(element, async () => {
-          body.classList.remove("waiting");
-          await section.render(body, page);
+          // Its room is kept until it is drawn: a page that shrinks in between loses the reader's place.
+          try {
+            await section.render(body, page);
+          } finally {
+            body.classList.remove("waiting");
+          }
         });
         return element;
       }),
@@ -134,8 +140,8 @@ export class Shell {
     if (target === null) return;
     const all = [...this.root.children] as HTMLElement[];
     await Promise.all(all.slice(0, all.indexOf(target) + 1).map((section) => this.#draw(section)));
-    await new Promise(requestAnimationFrame); // charts take their size
-    target.scrollIntoView({ block: "start" });
+    this.#leave?.();
+    this.#leave = stayAt(target, () => this.root.querySelector(".waiting") === null);
     target.querySelector("h2")?.focus({ preventScroll: true });
     this.#markHere();
   }

@@ -4,15 +4,19 @@ import type { Child } from "./dom";
 import type { Row, Table } from "./run_data";
 import { distinct, num, str } from "./run_data";
 import { csvText, download } from "./save";
-import { heading, interval, number } from "./text";
+import { breakable, columnFormat, heading, interval, number } from "./text";
 
 export interface TableColumn {
   title: string;
   numeric: boolean;
   sort: (row: Row) => number | string;
-  cell: (row: Row) => Child;
+  cell: (row: Row, write: Write) => Child;
+  number?: (row: Row) => number; // what `write` of its cells is made for; without it four digits
   hint?: string;
 }
+
+/** How a column writes a number. */
+export type Write = (x: number) => string;
 
 export interface TableOptions {
   name: string; // of the CSV file
@@ -20,6 +24,7 @@ export interface TableOptions {
   columns: TableColumn[];
   filters?: string[]; // columns that a select each narrows
   sort?: { column: number; descending: boolean };
+  tiny?: boolean; // its numbers are errors of rounding themselves: none is written as 0 for being small
   plain?: boolean; // no toolbar: a short table whose heading stands above it
 }
 
@@ -29,7 +34,7 @@ const kRows = 100; // at first; more on request
 export function textColumn(name: string, title = heading(name)): TableColumn {
   const cell = (row: Row): Child => {
     const text = str(row, name);
-    return text.length > kLong ? el("span", { class: "long" }, text) : text;
+    return text.length > kLong ? el("span", { class: "long" }, breakable(text)) : breakable(text);
   };
   return { title, numeric: false, sort: (row) => str(row, name), cell };
 }
@@ -40,8 +45,11 @@ export function numberColumn(name: string, title = heading(name), factor = 1, hi
     title,
     numeric: true,
     sort: (row) => num(row, name),
-    cell: (row) =>
-      valueWithInterval(num(row, name) * factor, num(row, `${name}_lo`) * factor, num(row, `${name}_hi`) * factor),
+    number: (row) => num(row, name) * factor,
+    cell: (row, write) => {
+      const [lo, hi] = [num(row, `${name}_lo`) * factor, num(row, `${name}_hi`) * factor];
+      return valueWithInterval(num(row, name) * factor, lo, hi, write);
+    },
     ...(hint === undefined ? {} : { hint }),
   };
 }
@@ -51,10 +59,30 @@ export function countColumn(name: string, title = heading(name)): TableColumn {
   return { title, numeric: true, sort: (row) => num(row, name), cell: (row) => str(row, name) };
 }
 
-export function valueWithInterval(value: number, lo: number, hi: number): Child {
-  if (!Number.isFinite(lo) || !Number.isFinite(hi)) return number(value);
-  return el("span", {}, number(value), " ", el("span", { class: "interval" }, interval(lo, hi)));
+export function valueWithInterval(value: number, lo: number, hi: number, write: Write = number): Child {
+  if (!Number.isFinite(lo) || !Number.isFinite(hi)) return write(value);
+  return el("span", {}, write(value), " ", el("span", { class: "interval" }, interval(lo, hi, write)));
 }
+
+/** A time of NAME in nanoseconds, in the unit that suits the largest of the table. */
+export function timeColumn(table: Table, name: string, title?: string): TableColumn {
+  const most = table.rows.reduce((least, row) => Math.max(least, num(row, name) || 0), 0);
+  const [unit, factor] = (most >= 1e9 ? ["s", 1e-9] : most >= 1e6 ? ["ms", 1e-6] : ["µs", 1e-3]) as [string, number];
+  return numberColumn(name, `${title ?? heading(name.replace(/_ns$/, ""))}, ${unit}`, factor);
+}
+
+/** Those of the wanted columns that the table has and that say something, in the wanted order: [name, heading]. */
+export function chosenColumns(table: Table, wanted: readonly (readonly [string, string?])[]): TableColumn[] {
+  const own = new Set(table.columns);
+  return wanted.flatMap(([name, title]) => {
+    if (!own.has(name)) return [];
+    const [column] = plainColumns({ columns: own.has(`${name}_lo`) ? [name, `${name}_lo`] : [name], rows: table.rows });
+    return column === undefined ? [] : [title === undefined ? column : { ...column, title }];
+  });
+}
+
+/** What a reader of a table seldom asks for; the CSV has it. */
+const kAside = /^(seed|width|height|(.*_)?ci_method|.*_(deviation|least|most)(_pixel|_sample)?_ns)$/;
 
 /** Columns for a table that the page knows nothing about: intervals join their values, what is empty is left out. */
 export function plainColumns(table: Table): TableColumn[] {
@@ -62,11 +90,15 @@ export function plainColumns(table: Table): TableColumn[] {
   const columns: TableColumn[] = [];
   for (const name of table.columns) {
     const base = name.replace(/_(lo|hi)$/, "");
-    if (base !== name && names.has(base)) continue;
+    if ((base !== name && names.has(base)) || kAside.test(name)) continue;
     const cells = table.rows.map((row) => row[name]);
     if (cells.every((cell) => cell === null || cell === "")) continue;
     const numeric = cells.some((cell) => typeof cell === "number");
     const whole = numeric && cells.every((cell) => cell === null || Number.isInteger(cell));
+    if (numeric && name.endsWith("_ns")) {
+      columns.push(timeColumn(table, name));
+      continue;
+    }
     columns.push(
       !numeric ? textColumn(name) : whole && !names.has(`${name}_lo`) ? countColumn(name) : numberColumn(name),
     );
@@ -93,6 +125,9 @@ export function sortableTable(table: Table, options: TableOptions): HTMLElement 
     shown = Infinity;
     fill();
   });
+  const writes = options.columns.map(({ number: of }) =>
+    of === undefined ? number : columnFormat(table.rows.map(of), options.tiny),
+  );
   const headers = options.columns.map((column, i) => {
     const arrow = el("span", { class: "arrow", "aria-hidden": true });
     const press = button("", { class: "sort", title: column.hint }, () => {
@@ -136,8 +171,8 @@ export function sortableTable(table: Table, options: TableOptions): HTMLElement 
           el(
             "tr",
             {},
-            ...options.columns.map((column) =>
-              el("td", { class: column.numeric ? "number" : undefined }, column.cell(row)),
+            ...options.columns.map((column, i) =>
+              el("td", { class: column.numeric ? "number" : undefined }, column.cell(row, writes[i] ?? number)),
             ),
           ),
         ),
@@ -177,6 +212,12 @@ export function sortableTable(table: Table, options: TableOptions): HTMLElement 
       body,
     ),
   );
+  const shade = (): void => {
+    frame.classList.toggle("more-left", frame.scrollLeft > 1);
+    frame.classList.toggle("more-right", frame.scrollLeft + frame.clientWidth < frame.scrollWidth - 1);
+  };
+  frame.addEventListener("scroll", shade, { passive: true });
+  new ResizeObserver(shade).observe(frame);
   const bar = options.plain
     ? el("div", { class: "toolbar" }, el("span", { class: "grow" }), more, save)
     : el(

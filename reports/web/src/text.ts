@@ -1,18 +1,70 @@
 // How the page writes numbers and names.
 
-/** Four significant digits; below 1e-3 and from 1e6 on with an exponent. */
-export function number(x: number): string {
-  if (!Number.isFinite(x)) return "";
+const kMinus = "\u2212";
+
+/** So many significant digits, with a true minus sign; below 1e-4 and from 1e6 on with an exponent. Finite numbers. */
+export function written(x: number, digits: number): string {
   if (x === 0) return "0";
   const size = Math.abs(x);
-  if (size < 1e-3 || size >= 1e6) return x.toExponential(3).replace("e+", "e");
-  if (size >= 1e4) return x.toFixed(0);
-  return x.toPrecision(4);
+  let text = size.toPrecision(digits);
+  if (size < 1e-4 || size >= 1e6) text = size.toExponential(digits - 1).replace("e+", "e");
+  else if (size >= 10 ** digits) text = size.toFixed(0);
+  return (x < 0 ? kMinus : "") + text.replace("e-", `e${kMinus}`);
+}
+
+/** Without zeros that end the fraction: where no other number stands below. */
+export function trimmed(text: string): string {
+  return text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "");
+}
+
+/** Four significant digits; nothing for what is no number. */
+export function number(x: number): string {
+  return Number.isFinite(x) ? written(x, 4) : "";
+}
+
+/** So many decimals, with a true minus sign. */
+export function fixed(x: number, decimals: number): string {
+  return x.toFixed(decimals).replace("-", kMinus);
+}
+
+/** What values of order 1 differ by through rounding alone. */
+const kRounding = 1e-12;
+
+/**
+ * How a column writes its numbers: where they are of like size, with as many decimals each, so that points stand below
+ * each other; else with four digits. Of a column whose numbers are not all tiny, what is rounding of numbers of order 1
+ * is 0, unless `tiny` ones count.
+ */
+export function columnFormat(values: readonly number[], tiny = false): (x: number) => string {
+  const sizes = values.filter(Number.isFinite).map(Math.abs);
+  const most = sizes.reduce((a, b) => Math.max(a, b), 0);
+  const nothing = !tiny && most > 1e6 * kRounding ? kRounding : 0;
+  const least = sizes.filter((size) => size > nothing).reduce((a, b) => Math.min(a, b), most);
+  const alike = least >= 1e-3 && most < 1e4 && most < 30 * least;
+  const decimals = alike ? Math.max(0, 3 - Math.floor(Math.log10(least))) : 0;
+  return (x) => {
+    if (!Number.isFinite(x)) return "";
+    if (Math.abs(x) <= nothing) return "0";
+    return alike ? fixed(x, decimals) : number(x);
+  };
+}
+
+/** "1 sample per pixel", "1, 4, 16 samples per pixel". */
+export function samplesPerPixel(spps: readonly number[]): string {
+  return `${spps.join(", ")} ${spps.length === 1 && spps[0] === 1 ? "sample" : "samples"} per pixel`;
+}
+
+/** A name that lines may break behind its signs, and nowhere in its words. */
+export function breakable(name: string): DocumentFragment {
+  const parts = name.split(/(?<=[:=,/])(?! )/);
+  const out = document.createDocumentFragment();
+  parts.forEach((part, i) => out.append(...(i === 0 ? [] : [document.createElement("wbr")]), part));
+  return out;
 }
 
 /** An interval beside its value: the same digits. */
-export function interval(lo: number, hi: number): string {
-  return `[${number(lo)}, ${number(hi)}]`;
+export function interval(lo: number, hi: number, write: (x: number) => string = number): string {
+  return `[${write(lo)}, ${write(hi)}]`;
 }
 
 /** A power of ten for an axis: 1, 10, 0.1, and 10 with a raised exponent beyond. */

@@ -2,15 +2,18 @@
 import type { Axis, ChartSpec, Line } from "../chart_spec";
 import { commonDomain } from "../axis";
 import { chartCard } from "../chart_card";
-import { Choice, Choices, Hidden, legend, options, toolbar } from "../controls";
+import { Choice, Choices, colourKey, Hidden, legend, options, toolbar } from "../controls";
 import { el } from "../dom";
 import type { Figure, Page, Section } from "../page";
 import type { Row, RunData, Table } from "../run_data";
 import { distinct, num, str } from "../run_data";
 import { narrowing, numberColumn, sortableTable, textColumn } from "../table";
-import { interval, number, slug } from "../text";
+import { breakable, fixed, interval, number, slug } from "../text";
 
 export const kSlopes = [-0.5, -0.75, -1];
+
+const kMostLines = 8; // of a chart that shows all its series at first
+const kFirstLines = 6; // of another: the best ones
 
 const kMetrics: Record<string, string> = {
   rmse_active: "RMSE of active pixels",
@@ -43,11 +46,32 @@ export function convergenceSpec(
     .map((key): Line => {
       const own = rows.filter((row) => data.series(row) === key).sort((a, b) => num(a, "spp") - num(b, "spp"));
       const slope = metric === "rmse_active" ? num(own[0] ?? {}, "slope") : NaN; // fitted to that error alone
-      const end = Number.isFinite(slope) ? { end: slope.toFixed(2).replace("-", "−") } : {};
+      const end = Number.isFinite(slope) ? { end: fixed(slope, 2) } : {};
       return { key, dots: true, line: true, ...end, points: own.map((row) => pointOf(row, key, metric)) };
     });
   const name = ["convergence", slug(scene), slug(filter)].join("_");
   return { name, title: `${scene}, ${filter}`, x, y, lines, guides: kSlopes };
+}
+
+/** Series by their error, the best first: over scenes and filters in the logarithm, at the largest sample count. */
+export function bestFirst(data: RunData): string[] {
+  const most = data.spps.at(-1);
+  const sums = new Map<string, [number, number]>();
+  const cases = new Map<string, number>(); // the least error of each
+  const rows = data.errors.filter((row) => num(row, "spp") === most && num(row, "rmse_active") > 0);
+  const caseOf = (row: Row): string => `${str(row, "scene")}|${str(row, "filter")}`;
+  for (const row of rows)
+    cases.set(caseOf(row), Math.min(cases.get(caseOf(row)) ?? Infinity, num(row, "rmse_active")));
+  for (const row of rows) {
+    const [sum, n] = sums.get(data.series(row)) ?? [0, 0];
+    sums.set(data.series(row), [sum + Math.log(num(row, "rmse_active") / (cases.get(caseOf(row)) ?? NaN)), n + 1]);
+  }
+  const mean = (key: string): number => {
+    const [sum, n] = sums.get(key) ?? [Infinity, 1];
+    return sum / n;
+  };
+  // Not the difference: of two infinite ones it is none.
+  return [...data.allSeries].sort((a, b) => (mean(a) < mean(b) ? -1 : mean(a) > mean(b) ? 1 : 0));
 }
 
 /** Draws them all over one domain: charts side by side compare by height. */
@@ -93,10 +117,20 @@ export function chartGrid(cards: HTMLElement[]): HTMLElement {
 export const convergence: Section = {
   id: "convergence",
   title: () => "Convergence",
-  lead: () =>
-    "Root mean square error against samples per pixel, N. Bands are 95% confidence intervals over trials. The dashed " +
-    "fan shows how errors fall as N^-1/2 (independent samples), N^-3/4 and N^-1; a number after a line's name is its " +
-    "fitted slope.",
+  lead: (data) => {
+    const has = (column: string): boolean => data.errors.some((row) => Number.isFinite(num(row, column)));
+    return [
+      "Root mean square error against samples per pixel, N. The dashed fan shows how errors fall as N",
+      el("sup", {}, "−1/2"),
+      " (independent samples), N",
+      el("sup", {}, "−3/4"),
+      " and N",
+      el("sup", {}, "−1"),
+      "." +
+        (has("rmse_active_lo") ? " Bands are 95% confidence intervals over trials." : "") +
+        (has("slope") ? " Enlarged, a chart names its lines, with their fitted slopes; the table below has all." : ""),
+    ];
+  },
   present: (data) => data.errors.length > 0 && data.spps.length > 1,
 
   render(host, page) {
@@ -114,13 +148,22 @@ export const convergence: Section = {
       ),
     );
     const grid = el("div", {});
+    // More than a few lines hide one another: the best are shown, the others by choice.
+    const patterns =
+      data.allSeries.length > kMostLines
+        ? new Choices(state, "cv.patterns", "Patterns", bestFirst(data), kFirstLines)
+        : undefined;
+    const key = el("div", {});
     const draw = (): void => {
-      const hidden = Hidden.of(state);
+      const shown = patterns?.values;
+      const hidden = shown ? new Set(data.allSeries.filter((name) => !shown.includes(name))) : Hidden.of(state);
+      const styles = shown ? page.styles.among(shown) : page.styles;
+      if (shown) key.replaceChildren(colourKey("Patterns shown", shown, styles, page.highlight, true));
       const specs = scenes.values.flatMap((scene) =>
         filters.values.map((filter) => convergenceSpec(data, scene, filter, metric.value, hidden)),
       );
       grid.replaceChildren(
-        chartGrid(alike(specs).map((spec) => chartCard(spec, { styles: page.styles, highlight: page.highlight }))),
+        chartGrid(alike(specs).map((spec) => chartCard(spec, { styles, highlight: page.highlight }))),
       );
     };
     const slopes = slopeTable(data);
@@ -129,8 +172,9 @@ export const convergence: Section = {
         data.scenes.length > 1 ? scenes.control(draw) : undefined,
         data.filters.length > 1 ? filters.control(draw) : undefined,
         metric.control(draw),
+        patterns?.control(draw),
       ),
-      legend(data.allSeries, page.styles, state, page.highlight, draw),
+      patterns ? key : legend(data.allSeries, page.styles, state, page.highlight, draw),
       grid,
     );
     draw();
@@ -142,7 +186,7 @@ export const convergence: Section = {
           columns: [
             textColumn("scene"),
             textColumn("filter"),
-            { ...textColumn("pattern"), sort: (row) => data.series(row), cell: (row) => data.series(row) },
+            { ...textColumn("pattern"), sort: (row) => data.series(row), cell: (row) => breakable(data.series(row)) },
             numberColumn("slope", "slope [95%]"),
             {
               title: "fitted over spp",

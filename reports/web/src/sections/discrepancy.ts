@@ -8,9 +8,32 @@ import type { Row } from "../run_data";
 import { distinct, num, RunData, str } from "../run_data";
 import type { PointSet } from "../schema";
 import type { TableColumn } from "../table";
-import { countColumn, narrowing, numberColumn, plainColumns, sortableTable, textColumn } from "../table";
-import { interval, number, slug } from "../text";
+import { chosenColumns, narrowing, sortableTable, textColumn } from "../table";
+import { breakable, fixed, interval, number, slug } from "../text";
 import { kSlopes } from "./convergence";
+
+/** What the tables show, with headings; the CSV has all columns. */
+const kSlopeColumns = [
+  ["pattern"],
+  ["measure"],
+  ["dims", "dimensions"],
+  ["slope"],
+  ["known", "known slope"],
+  ["known_is", "known for"],
+  ["n_max", "N up to"],
+  ["trials"],
+  ["why"],
+] as const;
+const kSummaryColumns = [
+  ["n", "N"],
+  ["dims", "dimensions"],
+  ["measure"],
+  ["mean"],
+  ["trials"],
+  ["paper", "paper's"],
+  ["paper_z", "z"],
+  ["paper_doubt", "doubt about the paper's"],
+] as const;
 
 function measureLabel(measure: string, dims: string, several_dims: boolean): string {
   return several_dims ? `${measure}, ${dims}-D` : measure;
@@ -65,7 +88,7 @@ function paperCell(row: Row): HTMLElement {
   const paper = num(row, "paper");
   const z = num(row, "paper_z");
   const said = el("span", { class: "paper" }, Number.isFinite(paper) ? number(paper) : "–");
-  if (Number.isFinite(z)) said.append(` (z ${z.toFixed(1)})`);
+  if (Number.isFinite(z)) said.append(` (z ${fixed(z, 1)})`);
   if (str(row, "paper_doubt") !== "") said.append(" ", el("abbr", { title: str(row, "paper_doubt") }, "doubt"));
   return el("span", { class: "beside" }, el("span", {}, number(num(row, "mean"))), said);
 }
@@ -162,11 +185,14 @@ function having(sets: PointSet[], n: number): number {
 export const discrepancy: Section = {
   id: "discrepancy",
   title: (data) => (data.discrepancies.length > 0 ? "Discrepancy" : "Points"),
-  lead: (data) =>
+  lead: (data) => [
     data.discrepancies.length > 0
       ? "How far a set's share of points in a region may stray from the region's area: smaller is more even. " +
-        "Bands are 95% confidence intervals over trials."
+        (data.discrepancies.some((row) => Number.isFinite(num(row, "mean_lo")))
+          ? "Bands are 95% confidence intervals over trials."
+          : "")
       : "The points of each pattern in one pixel, x to the right and y down.",
+  ],
   present: (data) => data.discrepancies.length > 0 || RunData.holds(data.run.points),
 
   async render(host, page) {
@@ -207,7 +233,7 @@ export const discrepancy: Section = {
           sortableTable(slopes, {
             name: "slopes",
             caption: "Fitted slopes of log discrepancy against log N",
-            columns: plainColumns(slopes),
+            columns: chosenColumns(slopes, kSlopeColumns),
             filters: narrowing(slopes, ["measure", "pattern", "dims"]),
           }),
         );
@@ -219,17 +245,8 @@ export const discrepancy: Section = {
             name: "summary",
             caption: "All discrepancies over trials",
             columns: [
-              { ...textColumn("pattern"), sort: (row) => data.series(row), cell: (row) => data.series(row) },
-              countColumn("n", "N"),
-              countColumn("dims", "dimensions"),
-              textColumn("measure"),
-              textColumn("method"),
-              countColumn("trials"),
-              numberColumn("mean", "mean [95%]"),
-              numberColumn("rms", "RMS"),
-              numberColumn("paper", "paper's mean"),
-              numberColumn("paper_z", "z"),
-              textColumn("paper_doubt", "doubt about the paper's"),
+              { ...textColumn("pattern"), sort: (row) => data.series(row), cell: (row) => breakable(data.series(row)) },
+              ...chosenColumns(summary, kSummaryColumns),
             ],
             filters: narrowing(summary, ["pattern", "measure", "dims", "n", "table"]),
           }),

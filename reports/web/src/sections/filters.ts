@@ -6,12 +6,34 @@ import { el } from "../dom";
 import type { Figure, Page, Section } from "../page";
 import { RunData } from "../run_data";
 import type { FilterCurves } from "../schema";
-import { narrowing, plainColumns, sortableTable } from "../table";
+import { chosenColumns, narrowing, sortableTable } from "../table";
 import { number, slug } from "../text";
 import { chartGrid } from "./convergence";
 
 const kWellKnown = ["box", "tent", "mitchell", "gaussian", "lanczos"];
 const kFloor = -80; // dB: below it responses are left out
+
+/** What the tables show, with headings; the CSV has all columns. */
+const kKernelColumns = [
+  ["filter"],
+  ["radius", "radius, pixels"],
+  ["variance", "variance, pixels²"],
+  ["nyquist_response", "gain at Nyquist"],
+  ["smoothing"],
+  ["postaliasing"],
+  ["overshoot_percent", "overshoot, %"],
+  ["noise_gain", "noise gain"],
+  ["anisotropy"],
+] as const;
+const kRankingColumns = [
+  ["filter"],
+  ["pattern"],
+  ["spp"],
+  ["rank_total", "rank"],
+  ["relative_total", "total error [95%]"],
+  ["rank_sampling", "rank, sampling"],
+  ["relative_sampling", "error of sampling [95%]"],
+] as const;
 
 function line(key: string, xs: number[], ys: number[], unit: string): Line {
   const points = xs.map((x, i): Point => {
@@ -130,9 +152,10 @@ async function renderCurves(host: HTMLElement, page: Page): Promise<void> {
 export const filters: Section = {
   id: "filters",
   title: () => "Filters",
-  lead: () =>
-    "Kernels as they weigh samples, what they pass of each frequency, and what they make of a vertical edge: " +
-    "values above 1 or below 0 ring, and the largest overshoot is marked.",
+  lead: () => [
+      "Kernels as they weigh samples, what they pass of each frequency, and what they make of a vertical edge: " +
+      "values above 1 or below 0 ring, and the largest overshoot is marked.",
+  ],
   present: (data) =>
     RunData.holds(data.run.filter_curves) ||
     data.table("filters") !== undefined ||
@@ -140,20 +163,25 @@ export const filters: Section = {
 
   async render(host, page) {
     if (RunData.holds(page.data.run.filter_curves)) await renderCurves(host, page);
-    for (const [name, caption] of [
-      ["filters", "Numbers of the kernels"],
-      ["filter_ranking", "Ranking of filters, over all scenes"],
+    for (const [name, caption, columns] of [
+      ["filters", "Numbers of the kernels", kKernelColumns],
+      ["filter_ranking", "Ranking of filters, over all scenes: errors over the best one's", kRankingColumns],
     ] as const) {
       const table = page.data.table(name);
       if (table === undefined) continue;
       const filters = narrowing(table, ["pattern", "spp", "estimator", "layout"]);
-      host.append(sortableTable(table, { name, caption, columns: plainColumns(table), filters }));
+      host.append(sortableTable(table, { name, caption, columns: chosenColumns(table, columns), filters }));
     }
   },
 
   async figures(page: Page): Promise<Figure[]> {
     if (!RunData.holds(page.data.run.filter_curves)) return [];
     const curves = await page.data.curves();
-    return curves.flatMap((one) => specs([one], one.filter).map((spec) => ({ spec, styles: page.filter_styles })));
+    const styles = page.filter_styles;
+    // Those that the page shows at first, together; then each by itself.
+    const names = wellKnownFirst(curves.map((one) => one.filter)).slice(0, kWellKnown.length);
+    const few = names.flatMap((name) => curves.filter((one) => one.filter === name));
+    const together = few.length > 1 ? specs(few) : [];
+    return [...together, ...curves.flatMap((one) => specs([one], one.filter))].map((spec) => ({ spec, styles }));
   },
 };

@@ -16,7 +16,8 @@ import {
   textColumn,
   valueWithInterval,
 } from "../table";
-import { count, number } from "../text";
+import { breakable, count, number, samplesPerPixel } from "../text";
+import { answers } from "./answers";
 
 /** The study's own seed: the first `seed = N` before its first table. */
 function seedOf(study: string): string | undefined {
@@ -37,7 +38,7 @@ function gist(data: RunData): string {
       count(data.allSeries.length, "pattern"),
       count(data.filters.length, "filter"),
     );
-    parts.push(`${data.spps.join(", ")} samples per pixel`);
+    parts.push(samplesPerPixel(data.spps));
   } else if (data.discrepancies.length > 0) {
     const ns = distinct(data.discrepancies.map((row) => num(row, "n"))).sort((a, b) => a - b);
     const measures = distinct(data.discrepancies.map((row) => str(row, "measure")));
@@ -73,11 +74,13 @@ function bar(ratio: number, worst: number, color: string): HTMLElement {
 }
 
 function ratio(value: number, lo: number, hi: number, worst: number, color: string): Child {
-  if (!Number.isFinite(value)) return "";
   // The best is 1 by definition: no interval.
   const text = lo === value && hi === value ? number(value) : valueWithInterval(value, lo, hi);
   return el("span", { class: "ratio" }, bar(value, worst, color), el("span", { class: "grow" }, text));
 }
+
+/** Why a pattern has no error at equal time. */
+const kTimeless = "even its smallest number of samples takes longer than the time at which patterns are compared";
 
 function sceneCard(page: Page, scene: string, rows: Row[]): HTMLElement {
   const { data, styles } = page;
@@ -90,7 +93,13 @@ function sceneCard(page: Page, scene: string, rows: Row[]): HTMLElement {
       title: "pattern",
       numeric: false,
       sort: (row) => data.series(row),
-      cell: (row) => el("span", { class: "named" }, swatch(styles.of(data.series(row))), data.series(row)),
+      cell: (row) =>
+        el(
+          "span",
+          { class: "named" },
+          swatch(styles.of(data.series(row))),
+          el("span", {}, breakable(data.series(row))),
+        ),
     },
     {
       title: "at equal samples",
@@ -107,13 +116,18 @@ function sceneCard(page: Page, scene: string, rows: Row[]): HTMLElement {
         ),
     },
   ];
-  if (rows.some((row) => Number.isFinite(num(row, "relative_at_equal_time")))) {
+  const timeless = (row: Row): boolean => !Number.isFinite(num(row, "relative_at_equal_time"));
+  const has_times = !rows.every(timeless);
+  if (has_times) {
     columns.push({
       title: "at equal time",
       hint: "RMSE over the best pattern's, each at the sample count that the same time allows",
       numeric: true,
       sort: (row) => num(row, "relative_at_equal_time"),
-      cell: (row) => ratio(num(row, "relative_at_equal_time"), NaN, NaN, worst_time, color(row)),
+      cell: (row) =>
+        timeless(row)
+          ? el("span", { title: kTimeless }, "–")
+          : ratio(num(row, "relative_at_equal_time"), NaN, NaN, worst_time, color(row)),
     });
   }
   return el(
@@ -131,6 +145,7 @@ function sceneCard(page: Page, scene: string, rows: Row[]): HTMLElement {
         plain: true,
       },
     ),
+    has_times && rows.some(timeless) && el("p", { class: "note" }, `–: ${kTimeless}.`),
   );
 }
 
@@ -142,15 +157,16 @@ function answer(data: RunData, rows: Row[]): string {
   const [first, second] = samples;
   const last = samples.at(-1);
   if (first === undefined || last === undefined) return "No pattern has an error to rank by.";
+  if (second === undefined) return `Only ${data.series(first)} has an error to rank by.`;
   let text = `At equal samples ${data.series(first)} is best`;
-  if (second !== undefined) {
-    text += `; next is ${data.series(second)} with ${number(num(second, "relative_rmse"))} times its error`;
-    const open = num(second, "relative_rmse_lo") <= num(first, "relative_rmse_hi");
-    if (open) text += " (their intervals overlap)";
-    if (last !== second) text += `, last ${data.series(last)} with ${number(num(last, "relative_rmse"))} times`;
-  }
-  const time = by("relative_at_equal_time")[0];
-  return time === undefined ? `${text}.` : `${text}. At equal time ${data.series(time)} is best.`;
+  text += `; next is ${data.series(second)} with ${number(num(second, "relative_rmse"))} times its error`;
+  const open = num(second, "relative_rmse_lo") <= num(first, "relative_rmse_hi");
+  if (open) text += " (their intervals overlap)";
+  if (last !== second) text += `, last ${data.series(last)} with ${number(num(last, "relative_rmse"))} times`;
+  const timed = by("relative_at_equal_time");
+  const [time] = timed;
+  // The best of one is no news.
+  return time === undefined || timed.length < 2 ? `${text}.` : `${text}. At equal time ${data.series(time)} is best.`;
 }
 
 function rankings(host: HTMLElement, page: Page): void {
@@ -196,54 +212,6 @@ function rankings(host: HTMLElement, page: Page): void {
   draw();
 }
 
-/** What comes of runs whose question is another: filters, or discrepancies. */
-function answers(data: RunData): string[] {
-  return [...filterAnswer(data), ...discrepancyAnswers(data)];
-}
-
-function filterAnswer(data: RunData): string[] {
-  const all = data.table("filter_ranking")?.rows ?? [];
-  const spps = distinct(all.map((row) => num(row, "spp"))).sort((a, b) => a - b);
-  const spp = spps[Math.floor((spps.length - 1) / 2)];
-  return distinct(all.map((row) => data.series(row))).flatMap((pattern) => {
-    const rows = all.filter((row) => num(row, "spp") === spp && data.series(row) === pattern);
-    const first = (rank: string): string => str(rows.find((row) => num(row, rank) === 1) ?? {}, "filter");
-    if (first("rank_total") === "" || first("rank_sampling") === "") return [];
-    return [
-      `Of ${rows.length} filters, with ${pattern} at ${spp} samples per pixel ${first("rank_total")} comes nearest ` +
-        `to exact coverage, and ${first("rank_sampling")} suffers least from sampling.`,
-    ];
-  });
-}
-
-function discrepancyAnswers(data: RunData): string[] {
-  const rows = data.discrepancies;
-  const out = distinct(rows.map((row) => `${str(row, "measure")}|${str(row, "dims")}`)).flatMap((key) => {
-    const own = rows.filter(
-      (row) => `${str(row, "measure")}|${str(row, "dims")}` === key && Number.isFinite(num(row, "mean")),
-    );
-    const n = Math.max(...own.map((row) => num(row, "n")));
-    const [best, ...rest] = own.filter((row) => num(row, "n") === n).sort((a, b) => num(a, "mean") - num(b, "mean"));
-    const worst = rest.at(-1);
-    if (best === undefined || worst === undefined) return [];
-    const named = `${str(best, "measure")} in ${str(best, "dims")} dimensions, N = ${n}`;
-    const times = number(num(worst, "mean") / num(best, "mean"));
-    return [
-      `${named}: ${data.series(best)} has the smallest, ${number(num(best, "mean"))}; ` +
-        `${data.series(worst)} the largest, ${times} times that.`,
-    ];
-  });
-  const printed = rows.filter((row) => Number.isFinite(num(row, "paper_z")) && str(row, "paper_doubt") === "");
-  if (printed.length > 0) {
-    const near = printed.filter((row) => Math.abs(num(row, "paper_z")) <= 2).length;
-    out.push(
-      `Of ${printed.length} values of the paper that vary between trials and leave no doubt about how they were ` +
-        `found, ${near} lie within 2 standard errors of ours.`,
-    );
-  }
-  return out;
-}
-
 /** Every row of the summary, the columns that most readers look for; the CSV has them all. */
 function everything(data: RunData): HTMLElement | undefined {
   const summary = data.table("summary");
@@ -280,12 +248,13 @@ function everything(data: RunData): HTMLElement | undefined {
 export const overview: Section = {
   id: "overview",
   title: () => "Overview",
-  lead: () => "",
+  lead: () => [],
   present: () => true,
 
   render(host, page) {
     const { data } = page;
     host.append(el("p", { class: "lead" }, gist(data)));
+    for (const notice of data.run.notices ?? []) host.append(el("p", { class: "note", role: "note" }, notice));
     const said = answers(data);
     if (said.length > 0)
       host.append(el("h3", {}, "What comes out"), el("ul", {}, ...said.map((text) => el("li", {}, text))));

@@ -7,9 +7,9 @@ import type { Figure, Page, Section } from "../page";
 import type { Row, RunData } from "../run_data";
 import { distinct, num } from "../run_data";
 import { RunData as Data } from "../run_data";
-import type { RadialSpectrum } from "../schema";
-import { countColumn, narrowing, plainColumns, sortableTable } from "../table";
-import { number, slug } from "../text";
+import type { RadialSpectrum, ReportImage } from "../schema";
+import { chosenColumns, narrowing, plainColumns, sortableTable, textColumn } from "../table";
+import { breakable, number, slug } from "../text";
 import { mountViewer } from "../viewer/viewer";
 import { chartGrid } from "./convergence";
 
@@ -18,6 +18,17 @@ const kParts: Record<string, { part: "main" | "second" | "third"; says: string }
   structured: { part: "second", says: "structure" },
   expected: { part: "third", says: "expected noise" },
 };
+/** What the table shows, with headings; the CSV has all columns. */
+const kRankingColumns = [
+  ["filter"],
+  ["spp"],
+  ["rank_low_frequency", "rank"],
+  ["relative_low_frequency", "low-frequency noise [95%]"],
+  ["rank_rmse", "rank, RMSE"],
+  ["relative_rmse", "RMSE [95%]"],
+  ["structured_fraction", "structured share [95%]"],
+  ["peaks", "significant peaks"],
+] as const;
 const kWellKnown = ["random", "jittered", "dart-throwing", "zaremba"];
 
 function linesOf(data: RunData, spectrum: RadialSpectrum): Line[] {
@@ -125,11 +136,51 @@ function peakTable(data: RunData, spectra: RadialSpectrum[]): HTMLElement | unde
   });
   if (rows.length === 0) return undefined;
   const table = { columns: Object.keys(rows[0] ?? {}), rows };
-  const columns = plainColumns(table);
+  // Chances are small numbers in earnest.
+  const columns = plainColumns(table).map(({ number: _, ...column }, i) =>
+    table.columns[i] === "p" || _ === undefined ? column : { ...column, number: _ },
+  );
   return sortableTable(table, {
     name: "peaks",
     caption: "Highest peak of each spectrum: frequency in cycles per pixel, height over the median power around",
     columns,
+  });
+}
+
+/** The viewer below shows what the charts show: of their first two patterns that have images. */
+function leadViewer(page: Page, scene: string, filter: string, spp: string, patterns: string[]): void {
+  const { data, state } = page;
+  const fits = (image: ReportImage | undefined): boolean =>
+    image !== undefined && image.scene === scene && image.filter === filter && String(image.spp) === spp;
+  const own = data.run.images.filter((image) => image.kind === "spectrum" && fits(image));
+  const order = [...patterns, ...distinct(own.map((image) => data.series(image)))];
+  const wanted = distinct(order.flatMap((key) => own.filter((image) => data.series(image) === key).slice(0, 1)));
+  for (const [i, side] of ["spectrum.a", "spectrum.b"].entries()) {
+    const now = data.run.images.find((image) => image.id === state.get(side));
+    const image = wanted[i] ?? wanted[0];
+    if (!fits(now) && image !== undefined) state.set(side, image.id);
+  }
+}
+
+/** The charts follow the viewer's first image to its scene, filter and samples, where they have them. */
+function followViewer(
+  page: Page,
+  host: HTMLElement,
+  choices: [string, Choice, (image: ReportImage) => string][],
+): void {
+  const { data, state } = page;
+  const follow = (id: string | undefined): void => {
+    const image = data.run.images.find((one) => one.id === id);
+    if (image === undefined) return;
+    for (const [key, choice, of] of choices) {
+      const value = of(image);
+      if (choice.value !== value && choice.choices.some((one) => one.value === value)) state.set(key, value);
+    }
+  };
+  follow(state.get("spectrum.a"));
+  const stop = state.onChange("spectrum.a", (id) => {
+    if (host.isConnected) follow(id);
+    else stop();
   });
 }
 
@@ -157,8 +208,11 @@ async function renderRadial(host: HTMLElement, page: Page): Promise<void> {
       ...[peakTable(data, all)].filter((table) => table !== undefined),
     );
   };
+  const bar = toolbar(scene.control(draw), filter.control(draw), spp.control(draw), patterns.control(draw));
+  const lead = (): void => leadViewer(page, scene.value, filter.value, spp.value, patterns.values);
+  bar.addEventListener("change", lead); // the reader's own choice: one that a link or the viewer makes does not lead
   host.append(
-    toolbar(scene.control(draw), filter.control(draw), spp.control(draw), patterns.control(draw)),
+    bar,
     el(
       "p",
       { class: "note" },
@@ -169,33 +223,47 @@ async function renderRadial(host: HTMLElement, page: Page): Promise<void> {
     body,
   );
   draw();
+  if (state.get("spectrum.a") === undefined && state.get("spectrum.b") === undefined) lead();
+  followViewer(page, body, [
+    ["sp.scene", scene, (image) => image.scene],
+    ["sp.filter", filter, (image) => image.filter],
+    ["sp.spp", spp, (image) => String(image.spp)],
+  ]);
 }
 
 export const spectra: Section = {
   id: "spectra",
   title: () => "Spectra",
-  lead: () =>
+  lead: () => [
     "Radial means of the power spectrum of the error image. Below 1/8 cycle per pixel the eye sees noise and " +
-    "structure best; a peak far above what is around it is a moiré pattern.",
+      "structure best; a peak far above what is around it is a moiré pattern.",
+  ],
   present: (data) =>
     Data.holds(data.run.radial_spectra) ||
     data.table("noise_ranking") !== undefined ||
-    data.run.images.some((image) => isSpectrum(image.kind)),
+    data.run.images.some((image) => isSpectrum(image.kind)) ||
+    data.leftOut("spectra").length > 0,
 
   async render(host, page) {
     const { data } = page;
     if (Data.holds(data.run.radial_spectra)) await renderRadial(host, page);
     const images = data.run.images.filter((image) => isSpectrum(image.kind));
-    if (images.length > 0) {
+    const left_out = data.leftOut("spectra");
+    if (images.length > 0 || left_out.length > 0) {
       const frame = el("div", {});
       host.append(el("h3", {}, "Spectra in two dimensions"), frame);
-      mountViewer(frame, images, { run: data.run, state: page.state });
+      mountViewer(frame, images, { run: data.run, state: page.state, left_out });
     }
     const ranking = data.table("noise_ranking");
     if (ranking !== undefined) {
-      const columns = plainColumns(ranking).map((column) =>
-        column.title === "spp" ? countColumn("spp", "spp") : column,
-      );
+      const columns = [
+        {
+          ...textColumn("pattern"),
+          sort: (row: Row) => data.series(row),
+          cell: (row: Row) => breakable(data.series(row)),
+        },
+        ...chosenColumns(ranking, kRankingColumns),
+      ];
       host.append(
         sortableTable(ranking, {
           name: "noise_ranking",

@@ -92,9 +92,10 @@ function familyNotes(row: Row): HTMLElement {
 export const stability: Section = {
   id: "stability",
   title: () => "Stability",
-  lead: () =>
-    "Hard cases of everything that is computed, each against a computation in higher precision. " +
-    "An error must stay within its stated bound; the plain formula in double arithmetic shows what care is worth.",
+  lead: () => [
+      "Hard cases of everything that is computed, each against a computation in higher precision. " +
+      "An error must stay within its stated bound; the plain formula in double arithmetic shows what care is worth.",
+  ],
   present: (data) => data.table("stress") !== undefined || data.table("growth") !== undefined,
 
   render(host, page) {
@@ -106,6 +107,7 @@ export const stability: Section = {
           name: "stress",
           caption: "Worst cases of each family",
           columns: columnsOf(),
+          tiny: true,
         }),
         ...stress.rows.map(familyNotes),
       );
@@ -124,6 +126,7 @@ export const stability: Section = {
         caption: "Errors by severity",
         columns: plainColumns(growth),
         filters: narrowing(growth, ["family"]),
+        tiny: true,
       }),
     );
   },

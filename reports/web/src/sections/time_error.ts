@@ -69,10 +69,11 @@ function spec(data: RunData, scene: string, filter: string, hidden: Set<string>)
 export const timeError: Section = {
   id: "time-error",
   title: () => "Time against error",
-  lead: () =>
-    "RMSE against the time to render one active pixel, measured on the machine named above: a point further left is " +
-    "faster, a point further down more exact. Ringed points on the stepped line are the Pareto front: nothing else " +
-    "is both faster and better.",
+  lead: () => [
+      "RMSE against the time to render one active pixel, measured on the machine named above: a point further left is " +
+      "faster, a point further down more exact. Ringed points on the stepped line are the Pareto front: nothing else " +
+      "is both faster and better.",
+  ],
   present: (data) => hasTimes(data),
 
   render(host, page) {

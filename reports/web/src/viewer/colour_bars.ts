@@ -1,7 +1,7 @@
 // The bar of colours below the images, with its numbers; one for each scale in use.
 import { el } from "../dom";
 import { kEntries, kMapTitles, tableOf } from "./colours";
-import { rounded } from "./numbers";
+import { short } from "./numbers";
 import { ticksOf, type Scale } from "./scale";
 
 export interface Use {
@@ -31,7 +31,7 @@ function barOf({ scale, of }: Use): HTMLElement {
   }
   canvas.getContext("2d")!.putImageData(image, 0, 0);
   const ticks = ticksOf(scale).map(({ position, value }) => {
-    const tick = el("span", { "data-value": String(value) }, rounded(value));
+    const tick = el("span", { "data-value": String(value) }, short(value));
     tick.style.left = `${100 * position}%`;
     return tick;
   });

@@ -1,5 +1,5 @@
 // Where a pixel of a spectrum lies: frequency 0 is pixel (w / 2, h / 2), and w pixels span one cycle per pixel.
-import { rounded } from "./numbers";
+import { short } from "./numbers";
 import type { Size } from "./view";
 
 /** Of the pixel (x, y), in cycles per pixel; y points down as in images. */
@@ -15,5 +15,5 @@ export function pixelOf({ w, h }: Size, fx: number, fy: number): { x: number; y:
 
 export function frequencyText(size: Size, x: number, y: number): string {
   const { fx, fy } = frequencyAt(size, x, y);
-  return `${rounded(fx)}, ${rounded(fy)}`;
+  return `${short(fx)}, ${short(fy)}`;
 }

@@ -4,7 +4,7 @@ import type { Cell, RadialSpectrum, Run } from "../schema";
 import type { Shot } from "./catalogue";
 import type { Notes } from "./compose";
 import { pixelOf } from "./frequency";
-import { rounded } from "./numbers";
+import { rounded, short } from "./numbers";
 import type { Ring } from "./pane";
 
 /** `changed` is called when the tables have been unpacked; until then nothing is said. */
@@ -49,17 +49,18 @@ export function notesOf(run: Run, changed: () => void): Notes {
       if (value !== undefined) return `RMSE ${rounded(value)} (active pixels)`;
       const peak = peakOf(shot);
       if (peak === undefined) return "";
-      const strength = peak.significant ? "significant" : "not significant";
+      if (!peak.significant) return "no significant peak";
       // JSON has null where the program had no number.
       const height = Number.isFinite(peak.height_db) ? ` ${rounded(peak.height_db)} dB over the power around it` : "";
-      return `strongest peak${height} at (${rounded(peak.fx)}, ${rounded(peak.fy)}) cycles per pixel, ${strength}`;
+      return `strongest peak${height} at (${short(peak.fx)}, ${short(peak.fy)}) cycles per pixel`;
     },
-    /** An image is real, so its power at (fx, fy) is that at (-fx, -fy): both are marked. */
+    /** An image is real, so its power at (fx, fy) is that at (-fx, -fy): both are marked. A peak that chance explains is
+     * none. */
     rings(shot: Shot): Ring[] {
       const pixels = (shot.spectrum ?? shot.structured ?? shot.noise)?.pixels;
       const peak = peakOf(shot);
-      if (pixels === undefined || peak === undefined) return [];
-      return [1, -1].map((sign) => ({ ...pixelOf(pixels, sign * peak.fx, sign * peak.fy), strong: peak.significant }));
+      if (pixels === undefined || peak === undefined || !peak.significant) return [];
+      return [1, -1].map((sign) => pixelOf(pixels, sign * peak.fx, sign * peak.fy));
     },
   };
 }

@@ -4,6 +4,7 @@ import { luminance } from "./colours";
 import type { Field } from "./field";
 import { tiny } from "./numbers";
 import { colourOn, type Scale } from "./scale";
+import { breakable } from "../text";
 import type { Region } from "./statistics";
 import { setAttribute, setText } from "./update";
 import { fit, origin, type Size, type View } from "./view";
@@ -19,7 +20,6 @@ export interface Layer {
 export interface Ring {
   x: number;
   y: number;
-  strong: boolean;
 }
 
 export interface Content {
@@ -76,7 +76,7 @@ export class Pane {
 
   /** `view`: none shows all of the image. */
   draw(content: Content, chosen: View | undefined): void {
-    setText(this.caption, content.caption);
+    if (this.caption.textContent !== content.caption) this.caption.replaceChildren(breakable(content.caption));
     setText(this.#message, content.message);
     this.#message.hidden = content.message === "";
     setAttribute(this.canvas, "aria-label", content.caption);
@@ -137,10 +137,8 @@ export class Pane {
       const radius = Math.max(7 * unit, 0.9 * zoom);
       context.beginPath();
       context.arc(from.x + (ring.x + 0.5) * zoom, from.y + (ring.y + 0.5) * zoom, radius, 0, 2 * Math.PI);
-      context.setLineDash(ring.strong ? [] : [3 * unit, 3 * unit]);
       this.#stroke(context);
     }
-    context.setLineDash([]);
     if (region !== undefined) {
       context.beginPath();
       context.rect(
@@ -171,9 +169,9 @@ export class Pane {
     }
   }
 
-  /** White within black: seen on any colour. */
+  /** White within black, which is wider than a pixel on either side: seen on any colour. */
   #stroke(context: CanvasRenderingContext2D): void {
-    context.lineWidth = 3 * this.density;
+    context.lineWidth = 4 * this.density;
     context.strokeStyle = "#000";
     context.stroke();
     context.lineWidth = 1.4 * this.density;

@@ -33,12 +33,12 @@ const kColumns = ["a", "b", "difference"] as const;
 export class Readout {
   readonly element: HTMLElement;
   #place = el("caption", { "data-testid": "readout-place" });
-  #last = el("th", { scope: "col" }, "B \u2212 A");
+  #heads = ["A", "B", "B \u2212 A"].map((name) => el("th", { scope: "col" }, name));
   #body = el("tbody");
 
   /** `names`: the rows there will be, so that nothing moves when somebody points. */
   constructor(names: readonly string[]) {
-    const head = el("tr", {}, el("td"), el("th", { scope: "col" }, "A"), el("th", { scope: "col" }, "B"), this.#last);
+    const head = el("tr", {}, el("td"), ...this.#heads);
     this.element = el(
       "table",
       { class: "v-table", "data-testid": "readout" },
@@ -60,7 +60,9 @@ export class Readout {
       return;
     }
     setText(this.#place, placeOf(question));
-    setText(this.#last, isPower(question.showB) ? "B over A, dB" : "B \u2212 A");
+    const power = isPower(question.showB);
+    const heads = power ? ["Power of A", "Power of B", "B over A, dB"] : ["A", "B", "B \u2212 A"];
+    this.#heads.forEach((head, c) => setText(head, heads[c]!));
     const rows = rowsOf(question);
     while (this.#body.rows.length > rows.length) this.#body.deleteRow(-1);
     rows.forEach((row, r) => {

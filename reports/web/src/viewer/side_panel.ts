@@ -8,7 +8,7 @@ const kFacetNames: Record<Facet, string> = {
   scene: "Scene",
   filter: "Filter",
   source: "Pattern",
-  spp: "Samples per pixel",
+  spp: "Samples",
   trial: "Trial",
 };
 
@@ -109,8 +109,8 @@ export function hrefOf(file: string): string {
   return file.split("/").map(encodeURIComponent).join("/");
 }
 
-/** The files that did not find room in the page, listed when somebody opens the list. */
-export function leftOutList(files: readonly { file: string; label: string }[]): HTMLDetailsElement {
+/** The files that did not find room in the page, listed when somebody opens the list, or `open` at first. */
+export function leftOutList(files: readonly { file: string; label: string }[], open = false): HTMLDetailsElement {
   const summary = el("summary");
   setText(summary, files.length === 1 ? "1 image is not in this page" : `${files.length} images are not in this page`);
   const details = el("details", { class: "v-left-out", "data-testid": "left-out" }, summary);
@@ -118,7 +118,8 @@ export function leftOutList(files: readonly { file: string; label: string }[]): 
     if (!details.open || details.childElementCount > 1) return;
     const list = el("ul");
     for (const { file, label } of files) list.append(el("li", {}, el("a", { href: hrefOf(file) }, label || file)));
-    details.append(el("p", {}, "The page keeps to its size; these EXR files lie beside it:"), list);
+    details.append(el("p", {}, "The page keeps to its size; these EXR files hold them:"), list);
   });
+  details.open = open;
   return details;
 }

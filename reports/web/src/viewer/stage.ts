@@ -6,8 +6,8 @@ import { listenTo, type Gestures } from "./pointer";
 import { setAttribute } from "./update";
 import { fitZoom, type Size } from "./view";
 
-/** Of the window's height, for an image; and never less than this many CSS pixels. */
-const kMostOfWindow = 0.68;
+/** CSS pixels of the window for what stands about an image: choosers, the row of tools, colour bar and read-out. */
+const kAbout = 388;
 const kLeastHeight = 160;
 
 export class Stage {
@@ -62,7 +62,7 @@ export class Stage {
     const grid = this.#choices.mode === "grid";
     for (const pane of this.panes) {
       const width = pane.frame.clientWidth;
-      const most = grid ? width : Math.max(kMostOfWindow * innerHeight, 2 * kLeastHeight);
+      const most = grid ? width : Math.max(innerHeight - kAbout, 2 * kLeastHeight);
       const zoom = fitZoom(image, { w: width * dense, h: most * dense });
       pane.resize(Math.min(Math.max(Math.round((zoom * image.h) / dense), kLeastHeight), most));
     }

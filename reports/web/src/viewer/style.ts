@@ -6,28 +6,28 @@ export const kViewerStyle = `
 .viewer [hidden] { display: none; }
 
 .v-sides {
-  display: grid; grid-template-columns: minmax(0, 1fr); gap: 8px 16px; align-items: center; margin-bottom: 12px;
+  display: grid; grid-template-columns: minmax(0, 1fr); gap: 6px 16px; align-items: center; margin-bottom: 8px;
 }
 @media (min-width: 1100px) {
   .v-sides { grid-template-columns: minmax(0, 1fr) auto; }
   .v-sides .v-between {
-    grid-column: 2; grid-row: 1 / 3; flex-direction: column; align-items: start; padding-left: 0;
+    grid-column: 2; grid-row: 1 / 3; flex-direction: column; align-items: start; max-width: 11rem; padding-left: 0;
   }
 }
 .viewer .v-side {
-  display: flex; flex-wrap: wrap; align-items: end; gap: 6px 12px;
-  padding: 8px 12px 10px 44px; position: relative;
+  display: flex; flex-wrap: wrap; align-items: center; gap: 4px 12px;
+  padding: 5px 12px 5px 44px; position: relative;
   border: 1px solid var(--rule); border-radius: 8px; background: var(--raised);
 }
 .v-side legend {
   position: absolute; left: 12px; top: 50%; transform: translateY(-50%);
   padding: 0; font-size: 1.25rem; font-weight: 700;
 }
-.v-side label { display: grid; gap: 2px; min-width: 0; }
+.v-side label { display: flex; align-items: center; gap: 5px; min-width: 0; }
 .v-side label span { color: var(--muted); font-size: 0.8rem; }
-.v-side select { max-width: 17rem; }
+.v-side select { max-width: 10.5rem; min-width: 0; }
 .v-side select:disabled { opacity: 1; color: var(--muted); background: transparent; }
-.v-links { margin-left: auto; padding-bottom: 5px; color: var(--muted); font-size: 0.82rem; }
+.v-links { margin-left: auto; color: var(--muted); font-size: 0.82rem; }
 .v-between {
   display: flex; max-width: 30rem; flex-wrap: wrap; gap: 6px 16px; align-items: center; padding-left: 44px;
 }
@@ -58,7 +58,7 @@ export const kViewerStyle = `
 .v-stage[data-mode="grid"] { grid-template-columns: repeat(auto-fill, minmax(min(100%, 272px), 1fr)); }
 .v-stage:focus-visible { outline: 2px solid var(--accent); outline-offset: 4px; }
 .v-pane { margin: 0; min-width: 0; break-inside: avoid; }
-.v-pane figcaption { margin-bottom: 4px; overflow-wrap: anywhere; font-size: 0.85rem; }
+.v-pane figcaption { margin-bottom: 4px; overflow-wrap: break-word; font-size: 0.85rem; }
 .v-frame {
   position: relative; overflow: hidden; line-height: 0; border-radius: 4px;
   background: var(--raised); box-shadow: 0 0 0 1px var(--rule);
@@ -87,7 +87,7 @@ export const kViewerStyle = `
 .v-handle:focus-visible { outline: none; }
 .v-handle:focus-visible::after { box-shadow: 0 0 0 2px #fff, 0 0 0 5px var(--accent); }
 
-.v-bars { display: flex; flex-wrap: wrap; gap: 10px 40px; margin: 12px 0; }
+.v-bars { display: flex; flex-wrap: wrap; gap: 10px 40px; margin: 8px 0; }
 .v-colour-bar { flex: 1 1 20rem; max-width: 40rem; margin: 0; }
 .v-colour-bar figcaption { margin-bottom: 3px; color: var(--muted); font-size: 0.82rem; }
 .v-colour-bar canvas {
@@ -105,7 +105,7 @@ export const kViewerStyle = `
 
 .v-numbers {
   display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 16px 32px;
-  align-items: start; margin-top: 16px;
+  align-items: start; margin-top: 8px;
 }
 .v-table { width: 100%; table-layout: fixed; }
 .v-table thead td { width: 27%; }
@@ -133,7 +133,7 @@ export const kViewerStyle = `
 .v-where:hover { text-decoration: underline; }
 .v-note { max-width: 80ch; margin-top: 12px; color: var(--muted); font-size: 0.82rem; }
 .v-left-out { margin-top: 8px; }
-.v-left-out ul { max-height: 18rem; overflow: auto; columns: 20rem; font-size: 0.82rem; overflow-wrap: anywhere; }
+.v-left-out ul { max-height: 18rem; overflow: auto; columns: 20rem; font-size: 0.82rem; overflow-wrap: break-word; }
 
 .v-help {
   max-width: 40rem; max-height: 86vh; padding: 16px 24px 20px; border: 1px solid var(--rule);

@@ -1,8 +1,7 @@
 // The viewer of images and of two-dimensional spectra: two images A and B, or all patterns of a case, with linked zoom,
 // exposure and colours. See choices.ts for what a reader chooses and compose.ts for what comes of it.
-import { unpack } from "../decode";
 import { el } from "../dom";
-import type { ReportImage, Run } from "../schema";
+import type { LeftOut, ReportImage, Run } from "../schema";
 import type { PageState } from "../state";
 import { isSpectral, optionsOf, shotsOf, type Shot } from "./catalogue";
 import { Choices, type Mode } from "./choices";
@@ -26,6 +25,7 @@ import { setAttribute, setText } from "./update";
 export interface ViewerContext {
   run: Run;
   state: PageState;
+  left_out: readonly LeftOut[]; // images of this kind that the page has no room for
 }
 
 /** Screen readers hear where the crosshair has come to rest, not its way. */
@@ -33,15 +33,15 @@ const kAnnounceDelay = 500; // ms
 
 /**
  * Puts a viewer of these images into `host`, in place of what is there: images with their exact ones, or spectra.
- * Nothing is decoded but what is shown. No images: nothing.
+ * Nothing is decoded but what is shown. Without images there is the list of those left out, if any.
  */
 export function mountViewer(host: HTMLElement, images: readonly ReportImage[], context: ViewerContext): void {
   const shots = shotsOf(images);
   host.replaceChildren();
-  if (shots.length === 0) return;
   if (document.getElementById("viewer-style") === null)
     document.head.append(el("style", { id: "viewer-style" }, kViewerStyle));
-  host.append(new Viewer(shots, context).element);
+  if (shots.length > 0) host.append(new Viewer(shots, context).element);
+  else if (context.left_out.length > 0) host.append(leftOutList(context.left_out, true));
 }
 
 class Viewer {
@@ -73,7 +73,7 @@ class Viewer {
   #seen = false; // has been in the page
   #end = new AbortController();
 
-  constructor(shots: readonly Shot[], { run, state }: ViewerContext) {
+  constructor(shots: readonly Shot[], { run, state, left_out }: ViewerContext) {
     const spectral = isSpectral(shots[0]!);
     const prefix = spectral ? "spectrum." : "image.";
     const maps: MapName[] = spectral ? ["heat", "linear"] : ["grey", "linear", "heat"];
@@ -122,11 +122,6 @@ class Viewer {
     this.#region = new RegionPanel(choices, (x, y) => this.#goTo(x, y));
     this.#keys = this.#keyActions();
     this.#help = helpDialog(this.#keys);
-    const leftOut = el("div");
-    void unpack(run.left_out).then((files) => {
-      const mine = files.filter(({ file }) => /\.(spectrum|structured|noise)\.exr$/.test(file) === spectral);
-      if (mine.length > 0) leftOut.append(leftOutList(mine));
-    });
     this.element = el(
       "div",
       { class: "viewer", "data-testid": spectral ? "spectrum-viewer" : "image-viewer", "aria-busy": "true" },
@@ -137,7 +132,7 @@ class Viewer {
       this.#bars.element,
       el("div", { class: "v-numbers" }, this.#readout.element, this.#region.element),
       el("p", { class: "v-note" }, spectral ? kPrecisionOfPowers : kPrecision),
-      leftOut,
+      left_out.length > 0 && leftOutList(left_out),
       this.#live,
       this.#help,
     );
