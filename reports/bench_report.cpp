@@ -8,9 +8,9 @@
 #include <iterator>
 #include <vector>
 
-#include "reports/cases.h"
 #include "reports/markdown_table.h"
 #include "reports/text_table.h"
+#include "study/cases.h"
 #include "study/columns.h"
 
 namespace moire {

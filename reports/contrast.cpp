@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/cases.h"
+#include "study/cases.h"
 
 namespace moire {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "reports/cases.h"
 #include "reports/markdown_table.h"
+#include "study/cases.h"
 #include "study/columns.h"
 
 namespace moire {

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "reports/cases.h"
 #include "reports/contrast.h"
 #include "reports/discrepancy_prediction.h"
 #include "reports/estimator_comparison.h"
@@ -17,6 +16,7 @@
 #include "reports/filter_table.h"
 #include "reports/markdown_table.h"
 #include "reports/noise_report.h"
+#include "study/cases.h"
 #include "study/columns.h"
 #include "study/scene_file.h"
 

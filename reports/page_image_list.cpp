@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "reports/cases.h"
+#include "study/cases.h"
 #include "study/columns.h"
 
 namespace moire {

@@ -12,8 +12,8 @@
 #include "reports/json.h"
 #include "reports/page_plan.h"
 #include "reports/page_rows.h"
-#include "reports/pattern_ranking.h"
 #include "study/filter_table.h"
+#include "study/pattern_ranking.h"
 #include "study/row_keys.h"
 #include "study/text_file.h"
 

@@ -8,10 +8,10 @@
 #include <tuple>
 #include <vector>
 
-#include "reports/cases.h"
 #include "reports/contrast.h"
 #include "reports/noise_report.h"
 #include "reports/text_table.h"
+#include "study/cases.h"
 #include "study/columns.h"
 
 namespace moire {

@@ -1,5 +1,5 @@
 // Ranking of patterns at equal samples and at equal time, on tables whose ranking is known.
-#include "reports/pattern_ranking.h"
+#include "study/pattern_ranking.h"
 
 #include <doctest/doctest.h>
 

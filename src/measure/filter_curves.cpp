@@ -1,5 +1,5 @@
 // A filter drawn.
-#include "reports/filter_curves.h"
+#include "measure/filter_curves.h"
 
 #include <algorithm>
 #include <cmath>

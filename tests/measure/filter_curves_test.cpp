@@ -1,5 +1,5 @@
 // Curves of every filter of the catalogue, against what its kernel and its metrics say.
-#include "reports/filter_curves.h"
+#include "measure/filter_curves.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Rows of results by their key.
-#include "reports/cases.h"
+#include "study/cases.h"
 
 #include <algorithm>
 

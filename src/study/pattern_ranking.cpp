@@ -1,5 +1,5 @@
 // Patterns ranked on each scene.
-#include "reports/pattern_ranking.h"
+#include "study/pattern_ranking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "reports/cases.h"
+#include "study/cases.h"
 #include "study/columns.h"
 
 namespace moire {
