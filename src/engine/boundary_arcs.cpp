@@ -28,6 +28,11 @@ void BoundaryIntegral::add(const Circle& circle) {
     // An extreme point may pass a knot by some u of the radius and not be cut there: the area beyond is below
     // (8 u)^1.5 of the radius squared.
     error_ += 0x1p-70 * circle.radius * circle.radius * kernel_.k_max() * kernel_.k_max();
+  } else {
+    // Likewise, and past the window's sides: an extreme point is known to some u of the smaller of circle and window.
+    // A segment of height h has a chord of 2 sqrt(2 radius h), and 4/3 sqrt(2 radius) h^1.5 of area.
+    const double h = 8 * kUnit * std::min(circle.radius, 4 * r);
+    error_ += std::min(1.9 * std::sqrt(circle.radius * h) * h, 2 * r * h) * kernel_.k_max() * kernel_.k_max();
   }
   for (const Quarter which : {Quarter::left, Quarter::upper, Quarter::right, Quarter::lower}) {
     const Rect place = around(circle, which);

@@ -22,8 +22,9 @@ constexpr double kPromised = 1e-12, kPromisedAtHorizon = 1e-9;
 constexpr double kPromisedOfEdges = 1e-13;
 // Disks up to this radius, in pixels, have bounds in proportion to their area times the kernel's largest value.
 constexpr double kTinyRadius = 1e-2;
-// Series aim at kPromised, and their rounding is on top of that; it was 2e-13 over the pixels of the README's table.
-constexpr double kPromisedOfPlanes = 2e-12;
+// Planes without end have no promise but an aim, steered by estimates of what a series will cost: a bound of ten times
+// that says that the steering failed.
+constexpr double kOfAim = 10;
 // Planes without end are promised for homographies of no worse condition (ExactCase::severity): pinhole cameras of
 // ordinary focal lengths.
 constexpr double kOrdinary = 1e3;
@@ -131,13 +132,14 @@ double promised_bound(const ExactCase& c) {
     return kPromised * r * r * (filter.kernel ? k * k : filter.filter.radial_kernel().k_max());
   }
   const bool polynomial = filter.kernel && filter.filter.kernel().degree() <= kPolynomial;
-  const double low = 0.5 - filter.filter.radius(), high = 0.5 + filter.filter.radius();
+  // A horizon that passes within a pixel of the window leaves as many squares in it as one that meets it.
+  const double low = -0.5 - filter.filter.radius(), high = 1.5 + filter.filter.radius();
   const bool to_horizon = c.image.meets_horizon(c.pixel, {{low, low}, {high, high}});
   // Boards with rims are of few squares, as the families have them, but next to the horizon the square's place may
   // cost.
   if (std::isfinite(oracle::board_of(c.image).extent[0])) return to_horizon ? kPromisedAtHorizon : kPromised;
   if (!polynomial || c.severity > kOrdinary) return HUGE_VAL;
-  return to_horizon ? kPromisedAtHorizon : kPromisedOfPlanes;
+  return kOfAim * (to_horizon ? kPromisedAtHorizon : kPromised);
 }
 
 Outcome judged(const ExactCase& c, const Exact& got, const oracle::Value& truth) {

@@ -21,6 +21,16 @@ TEST_SUITE("unit") {
 
   TEST_CASE("2000 hard disks meet every filter of the catalogue") { check_meets_all_filters(disks, 1, 2000); }
 
+  // The pixel's middle is 1.1483417740464109 below the disk's centre, which rounds by more than the disk dips in: 0,
+  // with a bound of 0, was the answer.
+  TEST_CASE("a disk that dips into a pixel by less than a rounding has that sliver in its bound") {
+    const ExactCase c{scenes::disk({475, 0.35165822595358903}, 0.64834177404641102), {475, 1}, checked_filter("box")};
+    const Outcome outcome = run(c);
+    CHECK(outcome.error > 3e-25);
+    CHECK(outcome.bound < 1e-20);
+    CHECK(passes(outcome));
+  }
+
   TEST_CASE("a tiny disk in one pixel is worth its area times the kernel's value, to its last digits") {
     for (const std::string& text : filter_variants()) {
       CAPTURE(text);
