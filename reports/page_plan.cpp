@@ -46,14 +46,6 @@ Table without_gaps(Table rows) {
   return rows;
 }
 
-std::vector<std::string> keys_of(const DiscrepancyStudy& study, const DiscrepancyPlan& planned) {
-  std::vector<std::string> keys;
-  for (const DiscrepancyGroup& group : planned.groups)
-    for (std::uint32_t m = 0; m < study.blocks[group.block].measures.size(); ++m)
-      for (std::uint32_t t = 0; t < group.trials; ++t) keys.push_back(describe(study, group, m, t));
-  return keys;
-}
-
 // Trials of the group before the first that lacks a row of any measure.
 std::uint32_t whole_trials(const DiscrepancyGroup& group, std::size_t measures, const Table& all) {
   for (std::uint32_t t = 0; t < group.trials; ++t)
@@ -69,8 +61,7 @@ std::optional<std::size_t> order_by_plan(const std::string& header, Table& rows)
     const std::string text = text_in(header);
     const Study study = parse_study(text, "study", text_at(header, "/study/name"));
     if (study.text != text) return std::nullopt;  // texts of files are appended, and would be so again
-    std::vector<std::string> keys;
-    for (const Case& c : plan(study)) keys.push_back(describe(study, c));
+    const std::vector<std::string> keys = row_keys(study, plan(study));
     const std::vector<std::size_t> places = places_in(keys, rows, image_row_key);
     if (std::find(places.begin(), places.end(), keys.size()) != places.end()) return std::nullopt;
     rows = without_gaps(placed(std::move(rows), places, keys.size()));
@@ -85,7 +76,7 @@ WholeSets whole_sets(const std::string& header, Table& rows, const std::string& 
   WholeSets whole;
   whole.study = parse_discrepancy_study(parse_toml(text, path + ":1"), text, text_at(header, "/study/name"));
   const DiscrepancyPlan planned = plan(whole.study);
-  const std::vector<std::string> keys = keys_of(whole.study, planned);
+  const std::vector<std::string> keys = row_keys(whole.study, planned);
   const std::vector<std::size_t> places = places_in(keys, rows, set_row_key);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (places[i] < keys.size()) continue;

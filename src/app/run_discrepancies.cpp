@@ -106,21 +106,12 @@ std::vector<Picture> draw_lines(const DiscrepancyStudy& study, const RunFolder& 
   return pictures;
 }
 
-std::vector<std::string> keys_of(const DiscrepancyStudy& study, const DiscrepancyPlan& plan) {
-  std::vector<std::string> keys;
-  keys.reserve(plan.rows);
-  for (const DiscrepancyGroup& group : plan.groups)
-    for (std::uint32_t m = 0; m < study.blocks[group.block].measures.size(); ++m)
-      for (std::uint32_t t = 0; t < group.trials; ++t) keys.push_back(describe(study, group, m, t));
-  return keys;
-}
-
 }  // namespace
 
 Exit run_study(const RunOptions& options, const DiscrepancyStudy& study) {
   const DiscrepancyPlan planned = plan(study);
   const std::vector<Drawn> drawn = drawn_sets(study, planned);
-  PlannedRows rows{study.seed, keys_of(study, planned), set_row_key};
+  PlannedRows rows{study.seed, row_keys(study, planned), set_row_key};
   if (options.dry_run) {
     print(fmt::format("# {} rows: pattern n dims measure trial\n", planned.rows));
     for (const std::string& key : rows.keys) print(key + "\n");

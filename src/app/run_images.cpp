@@ -68,8 +68,7 @@ Exit run_study(const RunOptions& options, const Study& study) {
     return Exit::ok;
   }
   const ThreadLimit limit(options.threads);
-  PlannedRows planned{study.seed, {}, image_row_key};
-  for (const Case& c : cases) planned.keys.push_back(describe(study, c));
+  const PlannedRows planned{study.seed, row_keys(study, cases), image_row_key};
   RunFolder folder(options, {study.name, study.text}, planned, kReports, study.images != Images::none);
 
   watch_interrupts();

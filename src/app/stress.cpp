@@ -30,14 +30,14 @@ std::vector<stress::Family> chosen_families(const std::vector<std::string>& name
   if (names.empty()) return {all.begin(), all.end()};
   std::vector<stress::Family> chosen;
   for (const std::string& name : names) {
-    const auto at = std::find_if(all.begin(), all.end(), [&](const stress::Family& f) { return f.name == name; });
+    const auto is_it = [&](const stress::Family& f) { return f.name == name; };
+    const auto at = std::find_if(all.begin(), all.end(), is_it);
     if (at == all.end()) {
       std::vector<std::string_view> known;
       for (const stress::Family& family : all) known.push_back(family.name);
       throw Error("--family", unknown_name("family", name, known));
     }
-    const auto same = [&](const stress::Family& f) { return f.name == name; };
-    if (std::any_of(chosen.begin(), chosen.end(), same)) throw Error("--family", "\"" + name + "\" is listed twice");
+    if (std::any_of(chosen.begin(), chosen.end(), is_it)) throw Error("--family", "\"" + name + "\" is listed twice");
     chosen.push_back(*at);
   }
   return chosen;

@@ -7,27 +7,16 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "oracle/shapes.h"
+#include "oracle/spec_values.h"
 
 namespace moire::oracle {
 namespace {
 
 constexpr long double kPi = std::numbers::pi_v<long double>;
-
-std::string text_of(const Spec& spec, std::string_view key, std::string_view fallback) {
-  for (const auto& [name, value] : spec.given)
-    if (name == key) return value.text;
-  return std::string(fallback);
-}
-
-long double number_of(const Spec& spec, std::string_view key, double fallback) {
-  double number = fallback;
-  const std::string text = text_of(spec, key, "");
-  if (!text.empty() && !parse_number(text, number)) throw std::invalid_argument("number " + text);
-  return static_cast<long double>(number);
-}
 
 struct Shape {
   std::vector<long double> breaks;
@@ -51,7 +40,7 @@ std::string with_parameters(const Spec& spec, const std::string& name) {
 }
 
 Shape radial_bc(const Spec& spec) {
-  const std::string preset = text_of(spec, "preset", "none");
+  const std::string_view preset = text_of(spec, "preset", "none");
   if (preset == "renderman-catmull-rom") return turned("catmull-rom");
   if (preset == "imagemagick-robidoux") return turned("robidoux");
   if (preset == "imagemagick-robidoux-sharp") return turned("robidoux-sharp");
@@ -82,7 +71,7 @@ long double jinc(long double x) {
 long double stored(long double x) { return static_cast<long double>(static_cast<double>(x)); }
 
 Shape windowed_jinc(const Spec& spec) {
-  const std::string preset = text_of(spec, "preset", "none");
+  const std::string_view preset = text_of(spec, "preset", "none");
   int lobes = static_cast<int>(number_of(spec, "lobes", 3));
   long double blur = number_of(spec, "blur", 1);
   if (preset == "imagemagick2" || preset == "imagemagick2-sharp") lobes = 2;

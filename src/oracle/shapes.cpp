@@ -12,25 +12,12 @@
 #include <string>
 #include <string_view>
 
+#include "oracle/spec_values.h"
+
 namespace moire::oracle {
 namespace {
 
 constexpr long double kPi = std::numbers::pi_v<long double>;
-
-std::string_view text_of(const Spec& spec, std::string_view key, std::string_view fallback) {
-  for (const auto& [name, value] : spec.given)
-    if (name == key) return value.text;
-  return fallback;
-}
-
-// The parameter is the double that the program reads, not the decimal.
-long double number_of(const Spec& spec, std::string_view key, long double fallback) {
-  const std::string_view text = text_of(spec, key, "");
-  if (text.empty()) return fallback;
-  double number = 0;
-  if (!parse_number(text, number)) throw std::invalid_argument("number " + std::string(text));
-  return static_cast<long double>(number);
-}
 
 // A constant of a system, which is the double that its source text gives.
 constexpr long double stored(double value) { return static_cast<long double>(value); }

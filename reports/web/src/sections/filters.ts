@@ -54,17 +54,20 @@ function kernelSpec(curves: FilterCurves[], name: string): ChartSpec {
   };
 }
 
+const kFrequency: ChartSpec["x"] = { label: "frequency, cycles per pixel", column: "f", scale: "linear" };
+const kFrequencyRules: ChartSpec["rules"] = [
+  { axis: "y", at: 0 },
+  { axis: "x", at: 0.5, label: "Nyquist" },
+];
+
 function responseSpec(curves: FilterCurves[], name: string): ChartSpec {
   return {
     name,
     title: "Frequency response",
-    x: { label: "frequency, cycles per pixel", column: "f", scale: "linear" },
+    x: kFrequency,
     y: { label: "gain", column: "gain", scale: "linear" },
     lines: curves.map((one) => line(one.filter, one.response.f, one.response.gain, "")),
-    rules: [
-      { axis: "y", at: 0 },
-      { axis: "x", at: 0.5, label: "Nyquist" },
-    ],
+    rules: kFrequencyRules,
   };
 }
 
@@ -73,13 +76,10 @@ function decibelSpec(curves: FilterCurves[], name: string): ChartSpec {
   return {
     name,
     title: "Frequency response, dB",
-    x: { label: "frequency, cycles per pixel", column: "f", scale: "linear" },
+    x: kFrequency,
     y: { label: "gain, dB", column: "gain_db", scale: "linear", domain: [kFloor, 6] },
     lines: curves.map((one) => line(one.filter, one.response.f, one.response.gain.map(decibels), " dB")),
-    rules: [
-      { axis: "y", at: 0 },
-      { axis: "x", at: 0.5, label: "Nyquist" },
-    ],
+    rules: kFrequencyRules,
   };
 }
 
