@@ -32,18 +32,14 @@
 
 #include "curve/piece_weight.h"
 #include "curve/polygon.h"
+#include "testimages/board_frame.h"
 #include "testimages/board_side.h"
 #include "testimages/homography.h"
+#include "testimages/series_side.h"
 #include "testimages/testimage.h"
 #include "testimages/weight_terms.h"
 
 namespace moire {
-
-// What bounds are aimed at, of J: where only the remainder is in the way, and of all stretches towards the horizon. A
-// side is cut into at most `max_pieces` pieces.
-struct SeriesAim {
-  double remainder, horizon, max_pieces;
-};
 
 // The series in one of its two forms: by parts along the rows' first argument.
 class CheckerSeries {
@@ -64,33 +60,18 @@ class CheckerSeries {
   Bounded integrate() const;
 
  private:
-  // Sums of bounds over the terms, for |t| <= 1/2 and W up to the polygon's deepest: of them, of their slopes in t, of
-  // their absolute parts times the roundings in them, and of what the g_j may be off by.
-  struct Sizes {
-    double size = 0, slope = 0, absolute = 0, error = 0;
-  };
-
   double remainder(int terms, double area, double ratio) const;
-  Sizes sizes(int terms, double ratio) const;
-  double rounding(const Sizes& s) const;
-  double rounding_on(const BoardSide& side, const Sizes& s) const;
   void choose_terms(double area, double ratio, double goal);
-  Bounded integrate(const BoardSide& side) const;
-  double sum_of_terms(double t, double r, const double* g, int terms) const;
 
-  LocalHomography::Row smooth_, jump_, w_;
-  double deepest_;
-  Bounded det_, e_;
+  BoardFrame frame_;
   WeightTerms weight_;
+  SeriesTerms terms_;  // as many as the polygon is given, of those of weight_
 
   SeriesAim aim_{};
-  double s_noise_ = 0, j_noise_ = 0, w_noise_ = 0;
+  SeriesNoise noise_;
   std::vector<BoardSide> sides_;
   double depth_ = 0;  // largest W of the polygon
-  int terms_ = 1;     // m
   double remainder_ = 0;
-  Sizes sizes_;
-  double nearby_ = 0;  // on the sum of the terms at complex points near the rectangle, for quadrature
   double estimate_ = 0;
 };
 

@@ -75,10 +75,10 @@ TailLine ray_from(const HorizonStretch& h, double tau) {
   const BoardSide& side = h.side;
   const Dd t = tau, rise = side.w1 - side.w0;
   const Dd w = side.w0 + t * rise;
-  const Bounded u = phase(side.s0 + t * (side.s1 - side.s0), w, h.s_noise, h.w_noise),
-                v = phase(side.j0 + t * (side.j1 - side.j0), w, h.j_noise, h.w_noise);
+  const Bounded u = phase(side.s0 + t * (side.s1 - side.s0), w, h.noise.s, h.noise.w),
+                v = phase(side.j0 + t * (side.j1 - side.j0), w, h.noise.j, h.noise.w);
   // Slopes: along_s and along_j, the rise and the quotient.
-  const double rise_error = (2 * h.w_noise + 2 * kUnit * rise.hi) / rise.hi;
+  const double rise_error = (2 * h.noise.w + 2 * kUnit * rise.hi) / rise.hi;
   const auto slope_error = [&](const Bounded& along) {
     return 1.01 * (along.error + std::fabs(along.value) * (rise_error + 2 * kUnit)) / rise.hi;
   };
@@ -105,12 +105,12 @@ Bounded horizon_tail(const HorizonStretch& h, double goal) {
   const double w0 = std::max(side.w0.value(), 0.0), rise = (side.w1 - side.w0).value();
   const double w1 = (side.w0 + Dd(side.from) * (side.w1 - side.w0)).value();
   double size = 0, power = 1;
-  for (int j = 0; j < h.terms; ++j, power *= w1 / h.deepest) {
-    size += kEuler.sup[static_cast<std::size_t>(j + 1)] * h.weight.top(j) * power;
+  for (int j = 0; j < h.terms.count; ++j, power *= w1 / h.terms.deepest) {
+    size += kEuler.sup[static_cast<std::size_t>(j + 1)] * h.terms.top[static_cast<std::size_t>(j)] * power;
   }
   const Bounded nothing{0, size * side.left_out * (1 + 0x1p-20)};
   // Too short, or hardly falling: t has no room.
-  if (side.from >= 1 || !(w0 <= 1.01 * largest_tail_start(h.along.degree()) * w1) || !(rise > 4 * h.w_noise) ||
+  if (side.from >= 1 || !(w0 <= 1.01 * largest_tail_start(h.weight.degree) * w1) || !(rise > 4 * h.noise.w) ||
       nothing.error <= goal / 16)
     return nothing;
 
@@ -122,19 +122,19 @@ Bounded horizon_tail(const HorizonStretch& h, double goal) {
   double value = 0, error = 0;
   if (!ends) error += size * side.w0.value() * side.w0.value() / rise;
   const double from_horizon = side.from - (ends ? 0 : -side.w0.value() / rise);
-  const int terms = std::min(h.terms, kMostTerms);
-  const auto n = std::min(static_cast<std::size_t>(h.along.degree() + 1), kTailPowers);
+  const int terms = std::min(h.terms.count, kMostTerms);
+  const auto n = std::min(static_cast<std::size_t>(h.weight.degree + 1), kTailPowers);
   const Interpolation& through = interpolation(n);
   double g[kTailPowers][kMaxTerms];
   for (std::size_t l = 0; l < n; ++l) {
-    h.along.at(side.from - from_horizon * (1 - Interpolation::node(n, l)), terms, g[l]);
+    h.weight.at(side.from - from_horizon * (1 - Interpolation::node(n, l)), terms, g[l]);
   }
-  for (int j = 0; j < h.terms; ++j) {
+  for (int j = 0; j < h.terms.count; ++j) {
     const auto term = static_cast<std::size_t>(j);
-    const double scale = std::pow(h.deepest, -j) / rise;
+    const double scale = std::pow(h.terms.deepest, -j) / rise;
     const double simple = scale * kEuler.sup[term + 1] * std::pow(w1, j + 2) / (j + 2);  // per unit of the weight
     if (j >= terms) {
-      error += simple * (h.weight.top(j) + h.weight.error(j));
+      error += simple * (h.terms.top[static_cast<std::size_t>(j)] + h.terms.error[static_cast<std::size_t>(j)]);
       continue;
     }
     double c[kTailPowers] = {};
@@ -142,11 +142,13 @@ Bounded horizon_tail(const HorizonStretch& h, double goal) {
       for (std::size_t l = 0; l < n; ++l) c[i] += through.coefficient[i][l] * g[l][term];
     // What the polynomial misses: the n-th derivative over n! is at most the weight's size in a disk of radius r, over
     // r^n, in units of the stretch (Cauchy).
-    const double reach = from_horizon * h.along.extent() / kNearby;
-    const double missed = static_cast<std::size_t>(h.along.degree()) < n
+    const double reach = from_horizon * h.weight.extent / kNearby;
+    const double missed = static_cast<std::size_t>(h.weight.degree) < n
                               ? 0
                               : power_of(reach, n) * through.product * h.weight.top_nearby(j, kNearby);
-    error += simple * (missed + through.gain * gain_of(x0, n) * (h.weight.error(j) + 32 * kUnit * h.weight.top(j)));
+    error += simple * (missed + through.gain * gain_of(x0, n) *
+                                    (h.terms.error[static_cast<std::size_t>(j)] +
+                                     32 * kUnit * h.terms.top[static_cast<std::size_t>(j)]));
     // From powers of s to those of x.
     for (std::size_t i = 0; i < n; ++i) {
       double d = 0, binomial = 1;

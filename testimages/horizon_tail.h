@@ -3,7 +3,7 @@
 #pragma once
 
 #include "testimages/board_side.h"
-#include "testimages/weight_terms.h"
+#include "testimages/series_side.h"
 
 namespace moire {
 
@@ -15,15 +15,12 @@ inline constexpr double kTailLength = 0.1;
 // How near to its far end, as a share of W there, a stretch may begin under a weight of that degree along the side.
 double largest_tail_start(int degree);
 
-// The part 0 <= tau <= side.from of a side, W from side.w0 (or 0) upwards; the first `terms` terms of the weight, in
-// powers of W / deepest; and the noise of the rows' values.
+// The part 0 <= tau <= side.from of a side, W from side.w0 (or 0) upwards, under the first terms of the weight.
 struct HorizonStretch {
   const BoardSide& side;
-  const WeightTerms::Along& along;
-  const WeightTerms& weight;
-  int terms;
-  double deepest;
-  double s_noise, j_noise, w_noise;
+  const SideWeight& weight;
+  const SeriesTerms& terms;
+  const SeriesNoise& noise;
 };
 
 // The integral over the stretch of s(v) sum over j of g_j W^(j+1) deepest^-j E_(j+1)(u) dtau, with a guaranteed bound.

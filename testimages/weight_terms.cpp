@@ -155,20 +155,27 @@ double WeightTerms::top_nearby(int j, double radius) const {
   return top * (1 + 0x1p-40);
 }
 
+WeightTerms::Extent WeightTerms::extent(Vec2 a, Vec2 b) const {
+  const double dx = (b.x - a.x) * x_.inverse_half(), dy = (b.y - a.y) * y_.inverse_half();
+  const bool upright = dx == 0, oblique = !upright && dy != 0 && x_.degree() > 0;
+  return {oblique   ? x_.degree() + y_.degree()
+          : upright ? y_.degree()
+                    : x_.degree(),
+          std::max(std::fabs(dx), std::fabs(dy))};
+}
+
 WeightTerms::Along::Along(const WeightTerms& terms, Vec2 a, Vec2 b, int count)
     : terms_(&terms),
       x_(terms.x_.t_of(a.x)),
       dx_((b.x - a.x) * terms.x_.inverse_half()),
       y_(terms.y_.t_of(a.y)),
-      dy_((b.y - a.y) * terms.y_.inverse_half()),
-      extent_(std::max(std::fabs(dx_), std::fabs(dy_))) {
+      dy_((b.y - a.y) * terms.y_.inverse_half()) {
+  const auto [degree, extent] = terms.extent(a, b);
+  degree_ = degree;
+  extent_ = extent;
   const bool upright = dx_ == 0;
   const WeightChain &run = upright ? terms.y_ : terms.x_, &fixed = upright ? terms.x_ : terms.y_;
-  if (!upright && dy_ != 0 && run.degree() > 0) {
-    degree_ = terms.x_.degree() + terms.y_.degree();
-    return;
-  }
-  degree_ = run.degree();
+  if (!upright && dy_ != 0 && run.degree() > 0) return;
   const auto terms_here = static_cast<std::size_t>(count), size = static_cast<std::size_t>(degree_ + 1);
   series_.assign(terms_here * size, 0);
   double at[kMaxTerms + 1];

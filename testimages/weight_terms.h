@@ -63,16 +63,25 @@ class WeightTerms {
   // Bound on |g_j|, and on the error of its value on a side.
   double top(int j) const { return top_[static_cast<std::size_t>(j)]; }
   double error(int j) const { return error_[static_cast<std::size_t>(j)]; }
+  const std::array<double, kMaxTerms + 1>& tops() const { return top_; }
+  const std::array<double, kMaxTerms + 1>& errors() const { return error_; }
   // Bound on |g_j| at complex points within that radius, in half lengths, of the rectangle.
   double top_nearby(int j, double radius) const;
+
+  // Of the g_j as polynomials in tau along a side; and how far that goes in half lengths of the rectangle, the longer
+  // of the two coordinates.
+  struct Extent {
+    int degree;
+    double extent;
+  };
+  Extent extent(Vec2 a, Vec2 b) const;
 
   // Along a side.
   class Along {
    public:
     Along(const WeightTerms& terms, Vec2 a, Vec2 b, int count);
-    // Of g_j as a polynomial in tau.
+    // See Extent.
     int degree() const { return degree_; }
-    // How far the side goes in half lengths of the rectangle, the longer of the two coordinates.
     double extent() const { return extent_; }
     // g_0 to g_(count - 1) at tau; count up to that of the constructor.
     void at(double tau, int count, double* g) const;
