@@ -24,8 +24,11 @@ constexpr double kMostSquares = 10000;
 constexpr std::size_t kMostRectangles = 1024;
 // Pieces that a side is cut into, of some 20 ns each under a box.
 constexpr double kMostPieces = 300000;
-// From this many times the aim on, the bound of some rectangles says how much the others are worth.
-constexpr double kFailed = 100;
+// Lines between which the sides of a window are integrated where that does not do as asked: half a second and more.
+constexpr double kManyLines = 3e6;
+// From this many times the aim on, what some rectangles lose says how much the others are worth: each this share of it,
+// over their number.
+constexpr double kFailed = 100, kShareOfLost = 0.05;
 // About what rounding comes to in a rectangle, and in one on the horizon.
 constexpr double kRounding = 0x1p-44, kRoundingAtHorizon = 0x1p-42;
 
@@ -83,17 +86,25 @@ class RectangleIntegral {
 
   // Squares that are to be clipped, if at most so many.
   double squares() const { return squares_; }
-  // `lost`: what the horizon may cost at least, as more than that is lost elsewhere.
-  WeightIntegral operator()(double most_squares, double lost, Boundary& rest);
+  // Appends the squares that are clipped, at most so many, and all else as half covered. The result is what to expect
+  // of the bound on what is more or less than that.
+  SeriesOutlook clip(double most_squares, Boundary& rest);
+  // What is more or less. `lost`: what the horizon may cost at least, as more than that is lost elsewhere; `quick` as
+  // in SeriesAim.
+  WeightIntegral operator()(double lost, bool quick);
 
  private:
-  WeightIntegral series(const SharpPolygon& part, Boundary& rest);
+  void series(const SharpPolygon& part, Boundary& rest);
+  void lay_out(bool quick);
 
   PieceWeight x_, y_;
   Share share_;
   BoardWindow window_;
   double deepest_ = 0, depth_ = 0, squares_ = 0;  // largest W; that below which the series does as asked
   std::optional<CheckerSeries> along_u_, along_v_;
+  // What is left to the series, its area, and the integral of |k k| over it, which is known beforehand.
+  Polygon polygon_;
+  double area_ = 0, most_ = 0;
 };
 
 RectangleIntegral::RectangleIntegral(const LocalHomography& local, const Extent& extent, const PieceWeight& x,
@@ -111,52 +122,71 @@ RectangleIntegral::RectangleIntegral(const LocalHomography& local, const Extent&
   squares_ = depth_ < deepest_ ? squares_before(local, window_.board, depth_) : 0;
 }
 
-WeightIntegral RectangleIntegral::operator()(double most_squares, double lost, Boundary& rest) {
-  share_.horizon = std::max(share_.horizon, lost);
+SeriesOutlook RectangleIntegral::clip(double most_squares, Boundary& rest) {
   const LocalHomography& local = window_.local;
   if (window_.board.empty()) return {};
   if (!along_u_) {
     append_squares(window_, rest);
     return {};
   }
-  if (depth_ >= deepest_) return series(window_.part, rest);
-
-  const double depth = depth_with(local, window_.board, depth_, deepest_, most_squares);
-  SharpPolygon front, behind;
-  window_.clipper.set_line(BoardWindow::kCut,
-                           sharp_line({local.w.a, local.w.b, local.w.c - Dd(depth), local.w.c_error}, local.w, 0, 1));
-  window_.clipper.split(window_.part, BoardWindow::kCut, &front, &behind);
-  const WeightIntegral known = series(behind, rest);
-  window_.part = front;
-  window_.board = rounded(front);
-  append_squares(window_, rest);
-  return known;
+  if (depth_ >= deepest_) {
+    series(window_.part, rest);
+  } else {
+    const double depth = depth_with(local, window_.board, depth_, deepest_, most_squares);
+    SharpPolygon front, behind;
+    window_.clipper.set_line(BoardWindow::kCut,
+                             sharp_line({local.w.a, local.w.b, local.w.c - Dd(depth), local.w.c_error}, local.w, 0, 1));
+    window_.clipper.split(window_.part, BoardWindow::kCut, &front, &behind);
+    series(behind, rest);
+    window_.part = front;
+    window_.board = rounded(front);
+    append_squares(window_, rest);
+  }
+  if (polygon_.empty()) return {};
+  lay_out(false);
+  const CheckerSeries& better = along_v_->estimate() < along_u_->estimate() ? *along_v_ : *along_u_;
+  if (!(better.estimate() < most_)) return {0.5 * most_, 0, 0.5 * most_, 0.5 * most_};
+  const auto [doubt, lines, quick, laid_out] = better.outlook();
+  const auto bound = [&](double of_j) { return 0.5 * std::min(of_j, most_); };
+  return {bound(doubt), lines, bound(quick), bound(laid_out)};
 }
 
-// The part as half covered to `rest`; the result is what is more or less than that.
-WeightIntegral RectangleIntegral::series(const SharpPolygon& part, Boundary& rest) {
-  if (part.empty()) return {};
-  const Polygon polygon = rounded(part);
+// Leaves a part to the series: appends it to `rest` as half covered.
+void RectangleIntegral::series(const SharpPolygon& part, Boundary& rest) {
+  if (part.empty()) return;
+  polygon_ = rounded(part);
   SharpClipper::append(part, 0.5, rest);
-  rest.area_error += window_.clipper.area_error() + 2 * kUnit * window_.half_width * perimeter(polygon);
-  const double area = area_of(polygon) * (1 + 0x1p-40) + 12 * kUnit * window_.half_width * window_.half_width;
-  const SeriesAim aim{share_.remainder, share_.horizon, kMostPieces};
+  rest.area_error += window_.clipper.area_error() + 2 * kUnit * window_.half_width * perimeter(polygon_);
+  area_ = area_of(polygon_) * (1 + 0x1p-40) + 12 * kUnit * window_.half_width * window_.half_width;
+  most_ = area_ * x_.top * y_.top;
+}
+
+void RectangleIntegral::lay_out(bool quick) {
+  const SeriesAim aim{share_.remainder, share_.horizon, kMostPieces, quick};
+  along_u_->lay_out(polygon_, area_, aim);
+  along_v_->lay_out(polygon_, area_, aim);
+}
+
+WeightIntegral RectangleIntegral::operator()(double lost, bool quick) {
+  if (polygon_.empty()) return {};
+  if (lost > share_.horizon || quick) {
+    share_.horizon = std::max(share_.horizon, lost);
+    lay_out(quick);
+  }
   CheckerSeries *first = &*along_u_, *second = &*along_v_;
-  first->lay_out(polygon, area, aim);
-  second->lay_out(polygon, area, aim);
   if (second->estimate() < first->estimate()) std::swap(first, second);
-  // Known beforehand: the integral of |k k|.
-  const double most = area * x_.top * y_.top;
-  if (!(first->estimate() < most)) return {0, 0.5 * most};
+  if (!(first->estimate() < most_)) return {0, 0.5 * most_};
   Bounded j = first->integrate();
   // A side that runs along a line of the board is a jump to one form of the series and none to the other.
-  if (j.error > 16 * (first->estimate() + share_.horizon) && second->estimate() < j.error) {
+  const auto expected = [quick](const CheckerSeries& s) { return quick ? s.outlook().quick : s.outlook().doubt; };
+  if (j.error > 16 * (first->estimate() + share_.horizon) && second->estimate() < j.error &&
+      expected(*second) < 0.5 * j.error) {
     const Bounded other = second->integrate();
     if (other.error < j.error) j = other;
   }
   const double fit = x_.error * (y_.top + y_.error) + x_.top * y_.error;
-  if (!(j.error + area * fit < most)) return {0, 0.5 * most};
-  return {0.5 * j.value, 0.5 * (j.error + area * fit)};
+  if (!(j.error + area_ * fit < most_)) return {0, 0.5 * most_};
+  return {0.5 * j.value, 0.5 * (j.error + area_ * fit)};
 }
 
 // The aim below which bounds only grow, for n pieces, because smaller remainders are had from more squares and more
@@ -204,11 +234,17 @@ std::optional<WeightIntegral> board_weight(const LocalHomography& local, const E
   }
   const double most_squares = squares_for_each(rectangles);
   Sum sum;
+  SeriesOutlook outlook;
+  for (RectangleIntegral& rectangle : rectangles) outlook.add(rectangle.clip(most_squares, rest));
+  // Many lines, to no avail: few of them, and long stretches cut into short ones, are known no worse than the lines
+  // would be without such cuts.
+  const bool quick = outlook.lines > kManyLines && outlook.doubt > goal && outlook.quick <= outlook.laid_out;
   double bound = 0;
   for (RectangleIntegral& rectangle : rectangles) {
-    // Where others have failed by far, this one need not be perfect.
-    const double lost = bound > kFailed * goal ? 0.05 * bound / (n * n) : 0;
-    const WeightIntegral part = rectangle(most_squares, lost, rest);
+    // Where others fail by far, this one need not be perfect.
+    const double failed = std::max(bound, quick ? outlook.quick : outlook.doubt);
+    const double lost = failed > kFailed * goal ? kShareOfLost * failed / (n * n) : 0;
+    const WeightIntegral part = rectangle(lost, quick);
     sum.add(part.value);
     bound += part.bound;
   }

@@ -110,19 +110,33 @@ void CheckerSeries::lay_out(const Polygon& polygon, double area, const SeriesAim
   estimate_ = remainder_ + left_out + lost;
 }
 
+template <class Visit>
+void CheckerSeries::for_sides(const Visit& visit) const {
+  for (const BoardSide& side : sides_) {
+    const WeightTerms::Along along(weight_, side.a, side.b, terms_.count);
+    visit(side, SideWeight{along.degree(), along.extent(),
+                           [&along](double tau, int count, double* g) { along.at(tau, count, g); },
+                           [this](int j, double radius) { return weight_.top_nearby(j, radius); }});
+  }
+}
+
+SeriesOutlook CheckerSeries::outlook() const {
+  SeriesOutlook sum{remainder_, 0, remainder_, remainder_};
+  for_sides([&](const BoardSide& side, const SideWeight& weight) {
+    sum.add(moire::outlook(side, weight, terms_, noise_, aim_));
+  });
+  return sum;
+}
+
 Bounded CheckerSeries::integrate() const {
   if (!frame_.valid()) return {0, HUGE_VAL};
   Sum sum;
   double error = remainder_;
-  for (const BoardSide& side : sides_) {
-    const WeightTerms::Along along(weight_, side.a, side.b, terms_.count);
-    const SideWeight weight{along.degree(), along.extent(),
-                            [&along](double tau, int count, double* g) { along.at(tau, count, g); },
-                            [this](int j, double radius) { return weight_.top_nearby(j, radius); }};
+  for_sides([&](const BoardSide& side, const SideWeight& weight) {
     const Bounded part = moire::integrate(side, weight, terms_, noise_, aim_, sides_.size());
     sum.add(part.value);
     error += part.error;
-  }
+  });
   return {sum.value(), error + 2 * kUnit * std::fabs(sum.value())};
 }
 

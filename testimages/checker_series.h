@@ -56,12 +56,17 @@ class CheckerSeries {
   void lay_out(const Polygon& polygon, double area, const SeriesAim& aim);
   // An estimate of the bound on J, good enough to choose.
   double estimate() const { return estimate_; }
+  // What to expect of it in more detail, which takes longer: remainder and horizon.
+  SeriesOutlook outlook() const;
   // J and its bound, for the polygon as it stands: remainder, rounding and the horizon.
   Bounded integrate() const;
 
  private:
   double remainder(int terms, double area, double ratio) const;
   void choose_terms(double area, double ratio, double goal);
+  // Calls visit(side, weight) for all sides.
+  template <class Visit>
+  void for_sides(const Visit& visit) const;
 
   BoardFrame frame_;
   WeightTerms weight_;

@@ -14,7 +14,8 @@ namespace moire {
 namespace {
 
 constexpr int kMostTerms = 8;  // j below that are interpolated; of the others only the size is known
-constexpr double kNearby = 1;  // half lengths around the rectangle: where weights are bounded
+// Half lengths around the rectangle: where weights are bounded, the first for short stretches.
+constexpr double kNearby[] = {1, 2, 4, 8};
 
 // Polynomials through values at n equal steps of [0, 1].
 struct Interpolation {
@@ -100,55 +101,131 @@ double largest_tail_start(int degree) {
   return std::min((gain - 1) / (gain + 1), 0.9);
 }
 
-Bounded horizon_tail(const HorizonStretch& h, double goal) {
-  const BoardSide& side = h.side;
-  const double w0 = std::max(side.w0.value(), 0.0), rise = (side.w1 - side.w0).value();
-  const double w1 = (side.w0 + Dd(side.from) * (side.w1 - side.w0)).value();
-  double size = 0, power = 1;
-  for (int j = 0; j < h.terms.count; ++j, power *= w1 / h.terms.deepest) {
+namespace {
+
+// What the integral over a stretch, and the doubt in it, start from.
+class Stretch {
+ public:
+  explicit Stretch(const HorizonStretch& h);
+
+  const HorizonStretch& h;
+  double start, w0, w1, rise;  // W at the start, there or 0, at the end; by how much it grows along the side
+  bool ends;                   // in front of the horizon
+  double from_horizon, reach;  // length from there, in tau and in half lengths
+  double x0;                   // w0 / w1
+  double size;                 // bound on the sum of the terms at w1
+  int terms;                   // that are interpolated
+  std::size_t n;               // powers of W
+
+  // False: too short, or hardly falling, so that t has no room.
+  bool usable() const { return h.end < 1 && w0 < w1 && rise > 4 * h.noise.w; }
+  // What is known without integrals.
+  double nothing() const { return size * h.integral_of_w * (1 + 0x1p-20); }
+  // What is left out before W is 0.
+  double before_horizon() const { return ends ? 0 : size * start * start / rise; }
+  // Bound on the integral of term j per unit of its weight, and on that of what its interpolation is off by.
+  double simple(int j) const;
+  double doubt(int j) const;
+
+ private:
+  double missed(int j, std::size_t powers) const;
+  double lost(int j, std::size_t powers) const;
+  std::size_t best_powers() const;
+};
+
+Stretch::Stretch(const HorizonStretch& stretch)
+    : h(stretch),
+      start((h.side.w0 + Dd(h.start) * (h.side.w1 - h.side.w0)).value()),
+      w0(std::max(start, 0.0)),
+      w1((h.side.w0 + Dd(h.end) * (h.side.w1 - h.side.w0)).value()),
+      rise((h.side.w1 - h.side.w0).value()),
+      ends(start > 0),
+      from_horizon(h.end - (ends ? h.start : -h.side.w0.value() / rise)),
+      reach(from_horizon * h.weight.extent),
+      x0(w0 / w1),
+      size(0),
+      terms(std::min(h.terms.count, kMostTerms)) {
+  double power = 1;
+  for (int j = 0; j < h.terms.count; ++j, power *= std::max(w1, 0.0) / h.terms.deepest) {
     size += kEuler.sup[static_cast<std::size_t>(j + 1)] * h.terms.top[static_cast<std::size_t>(j)] * power;
   }
-  const Bounded nothing{0, size * side.left_out * (1 + 0x1p-20)};
-  // Too short, or hardly falling: t has no room.
-  if (side.from >= 1 || !(w0 <= 1.01 * largest_tail_start(h.weight.degree) * w1) || !(rise > 4 * h.noise.w) ||
-      nothing.error <= goal / 16)
-    return nothing;
+  n = usable() ? best_powers() : 1;
+}
 
-  const TailLine ray = ray_from(h, side.from);
-  const bool ends = side.w0.value() > 0;  // in front of the horizon
-  const TailLine end = ends ? ray_from(h, 0) : ray;
-  const double T = ray.T, x0 = w0 / w1;
-  // Of W between w0, or 0, and the end of the stretch; besides |W| dtau before W is 0.
-  double value = 0, error = 0;
-  if (!ends) error += size * side.w0.value() * side.w0.value() / rise;
-  const double from_horizon = side.from - (ends ? 0 : -side.w0.value() / rise);
-  const int terms = std::min(h.terms.count, kMostTerms);
-  const auto n = std::min(static_cast<std::size_t>(h.weight.degree + 1), kTailPowers);
+double Stretch::simple(int j) const {
+  return std::pow(h.terms.deepest, -j) / rise * kEuler.sup[static_cast<std::size_t>(j + 1)] * std::pow(w1, j + 1) *
+         std::min(w1 / (j + 2), w1 - w0);
+}
+
+// What a polynomial through that many values misses of g_j: its derivative of that order over the order's factorial is
+// at most the weight's size in a disk of radius r, over r to that power, in units of the stretch (Cauchy).
+double Stretch::missed(int j, std::size_t powers) const {
+  if (static_cast<std::size_t>(h.weight.degree) < powers) return 0;
+  double least = HUGE_VAL;
+  for (const double r : kNearby) {
+    const double bound = power_of(reach / r, powers) * interpolation(powers).product * h.weight.top_nearby(j, r);
+    if (bound < least) least = bound;
+    if (reach <= kTailLength) break;  // good enough
+  }
+  return least;
+}
+
+double Stretch::lost(int j, std::size_t powers) const {
+  const auto term = static_cast<std::size_t>(j);
+  return missed(j, powers) +
+         interpolation(powers).gain * gain_of(x0, powers) * (h.terms.error[term] + 32 * kUnit * h.terms.top[term]);
+}
+
+double Stretch::doubt(int j) const {
+  const auto term = static_cast<std::size_t>(j);
+  return simple(j) * (j < terms ? lost(j, n) : h.terms.top[term] + h.terms.error[term]);
+}
+
+// All that there are, where W falls by enough; else those that leave the least of the first term in doubt.
+std::size_t Stretch::best_powers() const {
+  const std::size_t most = std::min(static_cast<std::size_t>(h.weight.degree + 1), kTailPowers);
+  if (w0 <= 1.01 * largest_tail_start(h.weight.degree) * w1) return most;
+  std::size_t best = 1;
+  double least = HUGE_VAL;
+  for (std::size_t powers = 1; powers <= most; ++powers) {
+    const double with = lost(0, powers);
+    if (with < least) least = with, best = powers;
+  }
+  return best;
+}
+
+}  // namespace
+
+double tail_doubt(const HorizonStretch& h) {
+  const Stretch stretch(h);
+  if (!stretch.usable()) return stretch.nothing();
+  double doubt = stretch.before_horizon();
+  for (int j = 0; j < h.terms.count; ++j) doubt += stretch.doubt(j);
+  return std::min(doubt, stretch.nothing());
+}
+
+Bounded horizon_tail(const HorizonStretch& h, double goal) {
+  const Stretch stretch(h);
+  const Bounded nothing{0, stretch.nothing()};
+  if (!stretch.usable() || nothing.error <= goal / 16) return nothing;
+
+  const TailLine ray = ray_from(h, h.end);
+  const TailLine end = stretch.ends ? ray_from(h, h.start) : ray;
+  const double T = ray.T, x0 = stretch.x0;
+  double value = 0, error = stretch.before_horizon();
+  for (int j = 0; j < h.terms.count; ++j) error += stretch.doubt(j);
+  const std::size_t n = stretch.n;
   const Interpolation& through = interpolation(n);
   double g[kTailPowers][kMaxTerms];
   for (std::size_t l = 0; l < n; ++l) {
-    h.weight.at(side.from - from_horizon * (1 - Interpolation::node(n, l)), terms, g[l]);
+    h.weight.at(h.end - stretch.from_horizon * (1 - Interpolation::node(n, l)), stretch.terms, g[l]);
   }
-  for (int j = 0; j < h.terms.count; ++j) {
+  for (int j = 0; j < stretch.terms; ++j) {
     const auto term = static_cast<std::size_t>(j);
-    const double scale = std::pow(h.terms.deepest, -j) / rise;
-    const double simple = scale * kEuler.sup[term + 1] * std::pow(w1, j + 2) / (j + 2);  // per unit of the weight
-    if (j >= terms) {
-      error += simple * (h.terms.top[static_cast<std::size_t>(j)] + h.terms.error[static_cast<std::size_t>(j)]);
-      continue;
-    }
+    const double scale = std::pow(h.terms.deepest, -j) / stretch.rise;
     double c[kTailPowers] = {};
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t l = 0; l < n; ++l) c[i] += through.coefficient[i][l] * g[l][term];
-    // What the polynomial misses: the n-th derivative over n! is at most the weight's size in a disk of radius r, over
-    // r^n, in units of the stretch (Cauchy).
-    const double reach = from_horizon * h.weight.extent / kNearby;
-    const double missed = static_cast<std::size_t>(h.weight.degree) < n
-                              ? 0
-                              : power_of(reach, n) * through.product * h.weight.top_nearby(j, kNearby);
-    error += simple * (missed + through.gain * gain_of(x0, n) *
-                                    (h.terms.error[static_cast<std::size_t>(j)] +
-                                     32 * kUnit * h.terms.top[static_cast<std::size_t>(j)]));
     // From powers of s to those of x.
     for (std::size_t i = 0; i < n; ++i) {
       double d = 0, binomial = 1;
@@ -171,7 +248,7 @@ Bounded horizon_tail(const HorizonStretch& h, double goal) {
         error += std::fabs(factor) * (tail.bound + 0x1p-44 * all);  // the second for T itself, and powers
       };
       take(ray, 1);
-      if (ends) take(end, -1);
+      if (stretch.ends) take(end, -1);
     }
   }
   return {value, error * (1 + 0x1p-20) + 16 * kUnit * std::fabs(value)};

@@ -19,6 +19,8 @@ namespace moire {
 // side is cut into at most `max_pieces` pieces.
 struct SeriesAim {
   double remainder, horizon, max_pieces;
+  // Where the weight is no polynomial of low degree: between lines only where they are few, however much that loses.
+  bool quick = false;
 };
 
 // What the rows' values on a polygon may be off by: of the family that is smooth, of the one that jumps, and of W.
@@ -76,6 +78,17 @@ struct SideEstimate {
 // Sets side.from and side.left_out, for a weight of that degree and extent along the side.
 SideEstimate lay_out(BoardSide& side, int degree, double extent, const SeriesTerms& terms, const SeriesNoise& noise,
                      const SeriesAim& aim);
+
+// What integrate() will leave in doubt besides rounding, about, and between how many lines it will have to integrate;
+// and what it would leave in doubt with aim.quick, or if every side were integrated as it was laid out. Known in far
+// less time than the integral.
+struct SeriesOutlook {
+  double doubt = 0, lines = 0, quick = 0, laid_out = 0;
+
+  void add(const SeriesOutlook& other);
+};
+SeriesOutlook outlook(const BoardSide& side, const SideWeight& weight, const SeriesTerms& terms,
+                      const SeriesNoise& noise, const SeriesAim& aim);
 
 // The side's part of J, of that many sides in all.
 Bounded integrate(const BoardSide& side, const SideWeight& weight, const SeriesTerms& terms, const SeriesNoise& noise,
