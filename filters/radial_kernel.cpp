@@ -85,7 +85,7 @@ void RadialKernel::set_bounds(const ShapeFit& fit, double fit_error, std::span<c
     const auto at = static_cast<std::size_t>(i);
     const SeriesPiece& p = pieces_[at];
     PieceBounds& bound = bounds_[at];
-    const std::span<const double> c(k_series(i), static_cast<std::size_t>(degree_) + 1);
+    const std::span<const double> c(k_coefficients(i), static_cast<std::size_t>(degree_) + 1);
     const std::span<const double> big(integral_series(i), static_cast<std::size_t>(integral_degree(i)) + 1);
     const double left = knots_[at], right = knots_[at + 1];
     const SeriesBound k = bound_series(c, kBeyond), integral = bound_series(big, kBeyond);
@@ -137,7 +137,7 @@ void RadialKernel::set_bounds(const ShapeFit& fit, double fit_error, std::span<c
 
 double RadialKernel::k_piece(int i, double r) const noexcept {
   const SeriesPiece& p = piece(i);
-  return chebyshev_sum(k_series(i), degree_, (r - p.mid) * p.inverse_half);
+  return chebyshev_sum(k_coefficients(i), degree_, (r - p.mid) * p.inverse_half);
 }
 
 double RadialKernel::q_piece(int i, double r) const noexcept {
@@ -160,7 +160,7 @@ void RadialKernel::q_pieces(int i, std::span<const double> r, double* out) const
 
 double RadialKernel::k_in_disk(int i, double reach) const noexcept {
   const double rho = ellipse_of_disk(reach / piece(i).half);
-  return absolute_sum({k_series(i), static_cast<std::size_t>(degree_) + 1}, rho);
+  return absolute_sum({k_coefficients(i), static_cast<std::size_t>(degree_) + 1}, rho);
 }
 
 double RadialKernel::q_in_disk(int i, double r, double reach) const noexcept {

@@ -57,6 +57,10 @@ class RadialKernel {
   // there.
   double k_in_disk(int piece, double reach) const noexcept;
   double q_in_disk(int piece, double r, double reach) const noexcept;
+  // One piece's Chebyshev series of k.
+  std::span<const double> k_series(int piece) const noexcept {
+    return {k_coefficients(piece), static_cast<std::size_t>(degree_) + 1};
+  }
   const PieceBounds& bounds(int piece) const noexcept { return bounds_[static_cast<std::size_t>(piece)]; }
 
   // Integral over the plane of the shape before normalisation.
@@ -76,7 +80,7 @@ class RadialKernel {
   const SeriesPiece& piece(int i) const noexcept { return pieces_[static_cast<std::size_t>(i)]; }
   // Of the series that q comes from: q itself on the first piece, G on the others.
   int integral_degree(int i) const noexcept { return i == 0 ? degree_ : degree_ + 2; }
-  const double* k_series(int i) const noexcept { return coefficients_.data() + piece(i).k_first; }
+  const double* k_coefficients(int i) const noexcept { return coefficients_.data() + piece(i).k_first; }
   const double* integral_series(int i) const noexcept { return coefficients_.data() + piece(i).integral_first; }
   void set_bounds(const ShapeFit& fit, double fit_error, std::span<const double> lost_k, std::span<const double> lost);
 

@@ -11,6 +11,7 @@
 #include "core/rounding.h"
 #include "testimages/board_box.h"
 #include "testimages/board_cover.h"
+#include "testimages/board_radial.h"
 #include "testimages/board_squares.h"
 #include "testimages/board_weight.h"
 #include "testimages/homography.h"
@@ -144,14 +145,15 @@ class Checkerboard {
   }
 
   void boundary(Pixel origin, double half_width, Boundary& out) const;
-  void boundary_under(Pixel origin, double half_width, const WeightBounds& weight, const WeightAim& aim,
-                      Boundary& out) const;
   std::optional<BoxIntegral> box_integral(Pixel origin, double half_width) const {
     return board_box(h_, extent_, origin, half_width);
   }
   std::optional<WeightIntegral> weight_integral(Pixel origin, std::span<const PieceWeight> pieces, const WeightAim& aim,
                                                 Boundary& rest) const {
     return board_weight(localize(h_, origin, 0.5), extent_, pieces, aim, rest);
+  }
+  WeightIntegral radial_integral(Pixel origin, const RadialWeight& weight, const WeightAim& aim, Boundary& rest) const {
+    return board_radial(localize(h_, origin, 0.5), extent_, weight, aim, rest);
   }
 
   // Where W = 0, for a board without end.
@@ -235,27 +237,6 @@ class Checkerboard {
 void Checkerboard::boundary(Pixel origin, double half_width, Boundary& out) const {
   BoardWindow window(localize(h_, origin, 0.5), extent_, half_width);
   append_squares(window, out);
-}
-
-// Squares without end come to bounds far above what is aimed at: the aim says how much work they are worth. Ten times
-// the squares bring bounds on weights without jumps down by a factor of 4 (cone) to 30 (jinc), and take ten times as
-// long.
-void Checkerboard::boundary_under(Pixel origin, double half_width, const WeightBounds& weight, const WeightAim& aim,
-                                  Boundary& out) const {
-  // Enough to tell a rough picture from none; and what takes half a second and 50 MB.
-  constexpr double kFewest = 100, kMost = kMaxCells;
-  BoardWindow window(localize(h_, origin, 0.5), extent_, half_width);
-  const WeightAim usual;
-  const bool horizon =
-      meets_horizon(origin, {{0.5 - half_width, 0.5 - half_width}, {0.5 + half_width, 0.5 + half_width}});
-  const double goal = horizon ? aim.at_horizon : aim.bound, least = horizon ? usual.at_horizon : usual.bound;
-  append_squares(
-      window,
-      {.weight = weight,
-       .goal = goal,
-       .least = goal > least ? kFewest : kMaxCellsOfMore,
-       .most = std::clamp(kMaxCellsOfMore * std::cbrt(usual.at_horizon / goal), 1.0 * kMaxCellsOfMore, kMost)},
-      out);
 }
 
 }  // namespace

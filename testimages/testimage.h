@@ -19,6 +19,7 @@
 #include "core/geometry.h"
 #include "curve/boundary.h"
 #include "curve/piece_weight.h"
+#include "testimages/radial_rings.h"
 
 namespace moire {
 
@@ -110,12 +111,12 @@ concept HasWeightIntegral = requires(const S& s, Pixel origin, std::span<const P
   { s.weight_integral(origin, pieces, aim, rest) } -> std::same_as<std::optional<WeightIntegral>>;
 };
 
-// A scene may have detail without end, of which boundary() resolves a usual part, and may resolve more or less of it:
-// as much as makes what is left unresolved come to the aim under a weight of these bounds, or as the aim is worth.
+// A scene may know the integral under a radial weight k(r), r the distance from the CENTRE of pixel `origin`, or a part
+// of it. The rest is appended to `rest` as boundary() would.
 template <class S>
-concept HasBoundaryUnder = requires(const S& s, Pixel origin, double half_width, const WeightBounds& weight,
-                                    const WeightAim& aim, Boundary& out) {
-  s.boundary_under(origin, half_width, weight, aim, out);
+concept HasRadialIntegral = requires(const S& s, Pixel origin, const RadialWeight& weight, const WeightAim& aim,
+                                     Boundary& rest) {
+  { s.radial_integral(origin, weight, aim, rest) } -> std::same_as<WeightIntegral>;
 };
 
 // What strips of a pixel hold of a scene, x and y from the pixel's upper left corner. For every point of the pixel in
@@ -154,8 +155,8 @@ struct TestImageInfo {
   bool (*strips)(const void*, Pixel, std::span<const double>, Strips) noexcept;  // null: has none
   std::optional<WeightIntegral> (*weight_integral)(const void*, Pixel, std::span<const PieceWeight>, const WeightAim&,
                                                    Boundary&);  // null: has none
-  void (*boundary_under)(const void*, Pixel, double, const WeightBounds&, const WeightAim&,
-                         Boundary&);  // null: boundary() alone
+  WeightIntegral (*radial_integral)(const void*, Pixel, const RadialWeight&, const WeightAim&,
+                                    Boundary&);  // null: has none
 };
 
 // Every kind of scene, in the order of testimages/CMakeLists.txt.
@@ -197,11 +198,11 @@ class TestImage {
     if (info_->weight_integral == nullptr) return std::nullopt;
     return info_->weight_integral(self_.get(), origin, pieces, aim, rest);
   }
-  // See HasBoundaryUnder.
-  void boundary_under(Pixel origin, double half_width, const WeightBounds& weight, const WeightAim& aim,
-                      Boundary& out) const {
-    if (info_->boundary_under == nullptr) return boundary(origin, half_width, out);
-    info_->boundary_under(self_.get(), origin, half_width, weight, aim, out);
+  // See HasRadialIntegral.
+  bool has_radial_integral() const noexcept { return info_->radial_integral != nullptr; }
+  // Precondition: has_radial_integral().
+  WeightIntegral radial_integral(Pixel origin, const RadialWeight& weight, const WeightAim& aim, Boundary& rest) const {
+    return info_->radial_integral(self_.get(), origin, weight, aim, rest);
   }
   // See HasStrips.
   bool has_strips() const noexcept { return info_->strips != nullptr; }
@@ -304,11 +305,11 @@ constexpr auto weight_integral_of()
 }
 
 template <class S>
-constexpr auto boundary_under_of()
-    -> void (*)(const void*, Pixel, double, const WeightBounds&, const WeightAim&, Boundary&) {
-  if constexpr (HasBoundaryUnder<S>) {
-    return [](const void* p, Pixel o, double h, const WeightBounds& weight, const WeightAim& aim, Boundary& out) {
-      static_cast<const S*>(p)->boundary_under(o, h, weight, aim, out);
+constexpr auto radial_integral_of()
+    -> WeightIntegral (*)(const void*, Pixel, const RadialWeight&, const WeightAim&, Boundary&) {
+  if constexpr (HasRadialIntegral<S>) {
+    return [](const void* p, Pixel o, const RadialWeight& weight, const WeightAim& aim, Boundary& rest) {
+      return static_cast<const S*>(p)->radial_integral(o, weight, aim, rest);
     };
   } else {
     return nullptr;
@@ -334,7 +335,7 @@ constexpr TestImageInfo describe(const TestImageText& t) {
           contains_at_of<S>(),
           strips_of<S>(),
           weight_integral_of<S>(),
-          boundary_under_of<S>()};
+          radial_integral_of<S>()};
 }
 
 }  // namespace moire

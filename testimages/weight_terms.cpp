@@ -7,59 +7,16 @@
 
 #include "core/rounding.h"
 #include "curve/quadrature.h"
+#include "testimages/binomials.h"
+#include "testimages/chebyshev_family.h"
 
 namespace moire {
 namespace {
-
-constexpr auto kBinomials = [] {
-  std::array<std::array<double, kMaxTerms + 1>, kMaxTerms + 1> b{};
-  for (std::size_t n = 0; n <= kMaxTerms; ++n) {
-    b[n][0] = b[n][n] = 1;
-    for (std::size_t k = 1; k < n; ++k) b[n][k] = b[n - 1][k - 1] + b[n - 1][k];
-  }
-  return b;
-}();
-
-// out = f', both Chebyshev series of n coefficients.
-void derive(const double* f, std::size_t n, double* out) {
-  double next = 0, after = 0;  // out[k + 1], out[k + 2]
-  for (std::size_t k = n; k-- > 0;) {
-    const double d = k + 1 < n ? after + 2 * static_cast<double>(k + 1) * f[k + 1] : 0;
-    out[k] = d;
-    after = next;
-    next = d;
-  }
-  out[0] *= 0.5;
-}
 
 // Coefficient k of t f(t).
 double times_t(const double* f, std::size_t n, std::size_t k) {
   const double above = k + 1 < n ? 0.5 * f[k + 1] : 0;
   return k == 0 ? above : above + (k == 1 ? f[0] : 0.5 * f[k - 1]);
-}
-
-double clenshaw(const double* c, std::size_t n, double t) {
-  double b1 = 0, b2 = 0;
-  for (std::size_t k = n; k-- > 1;) {
-    const double b = c[k] + (2 * t * b1 - b2);
-    b2 = b1;
-    b1 = b;
-  }
-  return c[0] + (t * b1 - b2);
-}
-
-// Many series at one t: out[k] for k < count, coefficient i of series k at c[i stride + k]. The same bits as one by
-// one, but no step waits for the one before it.
-void clenshaw(const double* c, std::size_t n, std::size_t stride, std::size_t count, double t, double* out) {
-  double b1[kMaxTerms + 1] = {}, b2[kMaxTerms + 1] = {};
-  for (std::size_t i = n; i-- > 1;) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const double b = c[i * stride + k] + (2 * t * b1[k] - b2[k]);
-      b2[k] = b1[k];
-      b1[k] = b;
-    }
-  }
-  for (std::size_t k = 0; k < count; ++k) out[k] = c[k] + (t * b1[k] - b2[k]);
 }
 
 }  // namespace

@@ -42,12 +42,16 @@ void require_sweepable(const Filter& filter) {
 }
 
 // The kernel as scenes may know it.
+double fit_error(const Kernel::PieceBounds& bounds) { return bounds.k_error_at_x; }
+double fit_error(const RadialKernel::PieceBounds& bounds) { return bounds.k_error; }
+
+template <class Kernel>
 std::vector<PieceWeight> pieces_of(const Kernel& kernel) {
   std::vector<PieceWeight> pieces;
   for (int p = 0; p < kernel.pieces(); ++p) {
     const auto i = static_cast<std::size_t>(p);
-    const Kernel::PieceBounds& bounds = kernel.bounds(p);
-    pieces.push_back({kernel.knots()[i], kernel.knots()[i + 1], kernel.k_series(p), bounds.k, bounds.k_error_at_x});
+    const auto& bounds = kernel.bounds(p);
+    pieces.push_back({kernel.knots()[i], kernel.knots()[i + 1], kernel.k_series(p), bounds.k, fit_error(bounds)});
   }
   return pieces;
 }
@@ -150,27 +154,33 @@ class PixelIntegrator {
 // The same with a radial filter.
 class RadialPixelIntegrator {
  public:
-  RadialPixelIntegrator(const TestImage& scene, const Filter& filter, const WeightAim& aim)
-      : scene_(scene),
-        aim_(aim),
-        kernel_(filter.radial_kernel()),
-        bounds_(weight_bounds(kernel_)),
-        known_(filter),
-        integral_(kernel_) {
+  // The weight is to stay.
+  RadialPixelIntegrator(const TestImage& scene, const Filter& filter, const RadialWeight& weight, const WeightAim& aim)
+      : scene_(scene), aim_(aim), kernel_(filter.radial_kernel()), weight_(weight), known_(filter), integral_(kernel_) {
     if (scene.sweep() != Vec2{}) refuse_moving(filter);
   }
 
   Exact operator()(Pixel pixel) {
     boundary_.clear();
-    scene_.boundary_under(pixel, kernel_.radius(), bounds_, aim_, boundary_);
-    return known_.meet(integrate(integral_, boundary_, doubt(boundary_, bounds_, kernel_.k_error())));
+    WeightIntegral known;
+    if (scene_.has_radial_integral()) {
+      known = scene_.radial_integral(pixel, weight_, aim_, boundary_);
+    } else {
+      scene_.boundary(pixel, kernel_.radius(), boundary_);
+    }
+    Exact e = integrate(integral_, boundary_, doubt(boundary_, weight_.bounds, kernel_.k_error()));
+    if (known.bound > 0) {
+      e.value += known.value;
+      e.bound += known.bound + kUnit * std::fabs(e.value);
+    }
+    return known_.meet(e);
   }
 
  private:
   const TestImage& scene_;
   WeightAim aim_;
   const RadialKernel& kernel_;
-  WeightBounds bounds_;
+  const RadialWeight& weight_;
   KnownRange known_;
   RadialIntegral integral_;
   Boundary boundary_;
@@ -206,8 +216,9 @@ Exact exact_pixel(const TestImage& scene, const Filter& filter, Pixel pixel, con
     case Cover::partial:
       break;
   }
-  return filter.is_radial() ? RadialPixelIntegrator(scene, filter, aim)(pixel)
-                            : PixelIntegrator(scene, filter, aim)(pixel);
+  if (!filter.is_radial()) return PixelIntegrator(scene, filter, aim)(pixel);
+  const RadialWeight weight(pieces_of(filter.radial_kernel()), weight_bounds(filter.radial_kernel()));
+  return RadialPixelIntegrator(scene, filter, weight, aim)(pixel);
 }
 
 Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& rows, const WeightAim& aim) {
@@ -220,6 +231,8 @@ Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& 
   const std::int64_t together = uneven ? 8 : 64;
   const std::int64_t active = rows.active_pixels();
   const auto blocks = static_cast<std::size_t>((active + together - 1) / together);
+  std::optional<RadialWeight> weight;
+  if (filter.is_radial()) weight.emplace(pieces_of(filter.radial_kernel()), weight_bounds(filter.radial_kernel()));
   // Threads take neighbouring items of a loop, so that blocks from all over the picture are made neighbours.
   const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(blocks))));
   parallel_for(side * side, [&](std::size_t item) {
@@ -233,7 +246,7 @@ Reference exact(const TestImage& scene, const Filter& filter, const ActiveRows& 
         reference.bound[static_cast<std::size_t>(index)] = e.bound;
       });
     };
-    if (filter.is_radial()) return fill(RadialPixelIntegrator(scene, filter, aim));
+    if (weight) return fill(RadialPixelIntegrator(scene, filter, *weight, aim));
     fill(PixelIntegrator(scene, filter, aim));
   });
   Sum squares;

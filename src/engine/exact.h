@@ -16,7 +16,7 @@ struct Exact {
 };
 
 // The exact value of one pixel, also outside the image. `aim` matters where a scene has detail without end
-// (HasWeightIntegral, HasBoundaryUnder): smaller bounds take more time, and where they can not be had the bound says
+// (HasWeightIntegral, HasRadialIntegral): smaller bounds take more time, and where they can not be had the bound says
 // so. No bound is above half the integral of |k|, over the plane, which is what is known of every pixel. Pixels that
 // are not active are exactly 0 or 1 with bound 0. Throws Error for a moving scene under a kernel of too many pieces
 // (SweptIntegral::kMaxPieces); so does exact().

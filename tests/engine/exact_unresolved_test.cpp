@@ -191,7 +191,7 @@ TEST_SUITE("heavy") {
     }
   }
 
-  TEST_CASE("a larger aim takes fewer squares under radial filters, and a smaller one has smaller bounds") {
+  TEST_CASE("a larger aim has what it asks for under radial filters, and a smaller one no larger bounds") {
     Draw draw(85);
     for (const char* name : {"cone", "radial-bc", "jinc", "disk"}) {
       const Filter filter = filter_of(name);
@@ -203,10 +203,11 @@ TEST_SUITE("heavy") {
         CAPTURE(name);
         CHECK(std::fabs(usual.value - rough.value) <= usual.bound + rough.bound);
         CHECK(std::fabs(usual.value - fine.value) <= usual.bound + fine.bound);
-        // As asked, but for what else is in a bound, or as usual; and ten times the squares bring a jump two times
-        // less and a slope's bound four times less, or more.
+        // As asked, but for what else is in a bound, or as usual. What is left to the series is chosen by estimates of
+        // its bound, which are good to a quarter.
         CHECK(rough.bound <= std::max(0.1 + 1e-12, usual.bound));
-        CHECK(fine.bound <= (filter.info().name == "disk" ? 0.75 : 0.4) * usual.bound);
+        CHECK(fine.bound <= 1.25 * usual.bound);
+        CHECK(usual.bound <= 1.1e-6);
       }
     }
   }
