@@ -33,60 +33,25 @@ RadialSeries::RadialSeries(const Row& smooth, const Row& jump, const Row& w, con
                            const RadialPart& part)
     : frame_(smooth, jump, w),
       pieces_(weight.pieces),
-      part_(part),
-      depth_(part.depth),
-      radius_(weight.radius()),
-      centre_(w.c.value()),
-      slope_(std::hypot(w.a, w.b)),
-      towards_(std::atan2(w.b, w.a)),
-      noise_{row_noise(smooth, radius_), row_noise(jump, radius_), row_noise(w, radius_)} {
+      part_(w, weight.radius(), part),
+      noise_{row_noise(smooth, weight.radius()), row_noise(jump, weight.radius()), row_noise(w, weight.radius())} {
   weights_.reserve(pieces_.size());
-  for (const PieceWeight& piece : pieces_) weights_.emplace_back(frame_, piece, depth_);
+  for (const PieceWeight& piece : pieces_) weights_.emplace_back(frame_, piece, part.depth);
   make_rings(weight.rings());
-  const double whole = std::numbers::pi * radius_ * radius_;
-  const double low = std::max(centre_ - slope_ * radius_, 0.0);
-  area_ = slope_ > 0 ? std::min(whole, 2 * radius_ * (row_w(radius_) - low) / slope_) : whole;
-  area_ *= kSlack;
-}
-
-double RadialSeries::row_w(double r) const { return std::clamp(centre_ + slope_ * r, 0.0, depth_); }
-
-double RadialSeries::angle_at(double r, double w) const {
-  const double rise = slope_ * r;
-  if (w - centre_ >= rise) return 0;
-  return w - centre_ <= -rise ? std::numbers::pi : std::acos((w - centre_) / rise);
-}
-
-Vec2 RadialSeries::on_circle(double r, double angle) const {
-  return {r * std::cos(towards_ + angle), r * std::sin(towards_ + angle)};
 }
 
 void RadialSeries::make_rings(std::span<const RadialRing> rings) {
-  // Distance of the part from the origin, where that lies outside it.
-  double away = slope_ > 0 ? std::max({0.0, (centre_ - depth_) / slope_, -centre_ / slope_}) : 0;
-  if (part_.notch > 0 && part_.notch_depth < centre_) {
-    away = std::min(part_.notch, (centre_ - part_.notch_depth) / slope_) * (1 - 0x1p-40);
-  }
+  const double away = part_.distance();
   const auto add = [&](std::size_t piece, double low, double high, const TermBounds& top) {
-    const double whole = std::numbers::pi * (high - low) * (high + low);
-    const double nearest = std::max(centre_ - slope_ * high, 0.0);
-    if (nearest > depth_) return;  // all of it is in front
-    const double across = slope_ > 0 ? 2 * high * (row_w(high) - nearest) / slope_ : whole;
-    // No wider than the notch: of a ring, what is on its way to the horizon alone.
-    const double w = high <= part_.notch ? std::min(row_w(high), part_.notch_depth) : row_w(high);
-    rings_.push_back({piece, low, high, w + noise_.w, std::min(whole, across) * kSlack, top});
+    rings_.push_back({piece, low, high, part_.largest_w(high) + noise_.w, part_.area(low, high), top});
   };
-  double least = radius_;
+  double least = part_.radius();
   for (const RadialRing& ring : rings) {
     if (ring.high <= away) break;
     least = std::max(ring.low, away);
     add(ring.piece, least, ring.high, weights_[ring.piece].top(ring.along, ring.high));
   }
   if (least <= away) return;
-  // Sides do not pass through the core, in which there is one term.
-  const bool notch = part_.notch > 0;
-  const double nearest = std::fabs((notch ? part_.notch_depth : depth_) - centre_) / slope_;
-  largest_core_ = slope_ > 0 ? std::min(nearest, notch ? part_.notch : nearest) * (1 - 0x1p-40) : HUGE_VAL;
   for (int left = kMostRings; left > 0; --left, least *= 0.5) {
     add(0, 0.5 * least, least, weights_[0].top(0.5 * least, least));
     core_ = 0.5 * least;
@@ -95,23 +60,22 @@ void RadialSeries::make_rings(std::span<const RadialRing> rings) {
 
 // Of the integral of the terms from `first` on over a unit of length on a circle or near it, by absolute values.
 double RadialSeries::by_length(const TermBounds& top, double r, int terms, int first) const {
-  const double w = row_w(r) + noise_.w, ratio = w / depth_;
+  const double w = part_.largest_w(r) + noise_.w, ratio = w / part_.depth();
   double sum = 0;
   for (int j = first; j < terms; ++j) sum += sup(j + 1) * top[static_cast<std::size_t>(j)] * std::pow(ratio, j);
   return weights_.back().drift(r) * ratio * sum * kSlack;
 }
 
-// The same over all of the circle. Angles are widened by more than rounding, which counts most where it touches a line.
+// The same over all of the circle.
 double RadialSeries::by_size(const TermBounds& top, double r, int terms, int first) const {
-  const double off = 0x1p-40 * (slope_ * r + std::fabs(centre_) + depth_);
-  const double from = angle_at(r, depth_ + off), to = angle_at(r, -off);
-  return 2 * r * (to - from + 0x1p-40) * by_length(top, r, terms, first) * kSlack;
+  return part_.length_of(r) * by_length(top, r, terms, first) * kSlack;
 }
 
-// What is left after so many terms, with the core as small as is best.
+// What is left after so many terms, with the best core. Sides do not pass through it.
 double RadialSeries::remainder_after(int terms) const {
   const auto left = [&](const Ring& ring, int m) {
-    return sup(m) * ring.area * ring.top[static_cast<std::size_t>(m)] * std::pow(ring.depth / depth_, m) * kSlack;
+    return sup(m) * ring.area * ring.top[static_cast<std::size_t>(m)] * std::pow(ring.depth / part_.depth(), m) *
+           kSlack;
   };
   double outside = 0;
   if (core_ == 0) {
@@ -121,9 +85,9 @@ double RadialSeries::remainder_after(int terms) const {
   double best = HUGE_VAL;
   for (const Ring& ring : rings_) {
     outside += left(ring, terms);
-    if (ring.piece > 0 || ring.low > largest_core_) continue;
-    const double r = ring.low, w = row_w(r) + noise_.w;
-    const double core = sup(1) * std::numbers::pi * r * r * weights_[0].top(r, r)[1] * (w / depth_) * kSlack;
+    if (ring.piece > 0 || ring.low > part_.path_distance()) continue;
+    const double r = ring.low, w = part_.largest_w(r) + noise_.w;
+    const double core = sup(1) * std::numbers::pi * r * r * weights_[0].top(r, r)[1] * (w / part_.depth()) * kSlack;
     best = std::min(best, outside + core + by_size(ring.top, r, terms, 1));
   }
   return best;
@@ -137,7 +101,7 @@ TermBounds RadialSeries::jump_at(std::size_t circle, double within) const {
 void RadialSeries::finish(Stretch s, double w) {
   s.terms.error = SideInterpolant::error(s.terms.error, s.terms.top, s.beside);
   double power = 1;
-  const double ratio = (w + noise_.w) / depth_ * (1 + 4 * kUnit);
+  const double ratio = (w + noise_.w) / part_.depth() * (1 + 4 * kUnit);
   s.terms.sizes = {s.terms.top, s.terms.error, kNoPolynomial, count_, ratio};
   for (int j = 0; j < count_; ++j, power *= ratio) {
     s.terms.nearby += sup(j + 1) * s.beside[static_cast<std::size_t>(j)] * power;
@@ -151,10 +115,10 @@ std::size_t RadialSeries::add_stretch(std::size_t piece, double low, double high
   finish({piece,
           false,
           scale,
-          {weight.top(low, high), weight.error(low, high), depth_, frame_.det, count_},
+          {weight.top(low, high), weight.error(low, high), part_.depth(), frame_.det, count_},
           weight.nearby(low, high, kBeside * scale),
           weight.nearby(low, high, scale)},
-         row_w(high));
+         part_.largest_w(high));
   return stretches_.size() - 1;
 }
 
@@ -162,9 +126,12 @@ std::size_t RadialSeries::add_stretch(std::size_t piece, double low, double high
 std::size_t RadialSeries::add_stretch_at(std::size_t circle, double within) {
   const double high = circle_radius(circle), low = high - within;
   const RadialTerms& inner = weights_[circle];
-  Stretch s{
-      circle, false, inner.scale(low), {jump_at(circle, within), inner.error(low, high), depth_, frame_.det, count_},
-      {},     {}};
+  Stretch s{circle,
+            false,
+            inner.scale(low),
+            {jump_at(circle, within), inner.error(low, high), part_.depth(), frame_.det, count_},
+            {},
+            {}};
   s.beside = inner.nearby(low, high, kBeside * s.scale);
   s.around = inner.nearby(low, high, s.scale);
   if (circle + 1 < weights_.size()) {
@@ -178,7 +145,7 @@ std::size_t RadialSeries::add_stretch_at(std::size_t circle, double within) {
       s.around[j] += around[j];
     }
   }
-  finish(s, row_w(high));
+  finish(s, part_.largest_w(high));
   return stretches_.size() - 1;
 }
 
@@ -210,7 +177,7 @@ void RadialSeries::add_line(Vec2 a, Vec2 b, double horizon) {
       if (s > begin && s < end) cuts.push_back(s);
     }
   };
-  for (double r = nearest; r < radius_; r *= 2) cut_at(r);
+  for (double r = nearest; r < part_.radius(); r *= 2) cut_at(r);
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
     const double r = circle_radius(i), touch = 0x1p-40 * r;
     cut_at(r);
@@ -233,53 +200,12 @@ void RadialSeries::add_line(Vec2 a, Vec2 b, double horizon) {
   }
 }
 
-// From the one meet of the rim and W = depth to the other, around the notch.
-void RadialSeries::add_chord(double horizon) {
-  const double half = angle_at(radius_, depth_);
-  if (half == 0) return;
-  const Vec2 up{std::cos(towards_), std::sin(towards_)};
-  const auto at = [&](double across, double w) {
-    const double rise = (w - centre_) / slope_;
-    return Vec2{rise * up.x - across * up.y, rise * up.y + across * up.x};
-  };
-  std::vector<Vec2> path{on_circle(radius_, -half)};
-  if (part_.notch > 0) {
-    const double x = part_.notch;
-    for (const Vec2 p : {at(-x, depth_), at(-x, part_.notch_depth), at(x, part_.notch_depth), at(x, depth_)}) {
-      path.push_back(p);
-    }
-  }
-  path.push_back(on_circle(radius_, half));
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) add_line(path[i], path[i + 1], horizon);
-}
-
-// Where a circle runs in the part, on either side of the way to larger W: angles from that way.
-std::vector<RadialSeries::Arc> RadialSeries::arcs_of(double r) const {
-  std::vector<Arc> arcs{{angle_at(r, depth_), angle_at(r, 0)}};
-  if (part_.notch > 0) {
-    const auto leave_out = [&](double from, double to) {
-      std::vector<Arc> left;
-      for (const Arc& arc : arcs) {
-        if (from > arc.from) left.push_back({arc.from, std::min(arc.to, from)});
-        if (to < arc.to) left.push_back({std::max(arc.from, to), arc.to});
-      }
-      if (from < to) arcs = left;
-    };
-    const double bottom = angle_at(r, part_.notch_depth);
-    const double side = r > part_.notch ? std::asin(part_.notch / r) : 0.5 * std::numbers::pi;
-    leave_out(0, std::min(side, bottom));
-    leave_out(std::numbers::pi - side, bottom);
-  }
-  std::erase_if(arcs, [](const Arc& arc) { return !(arc.to > arc.from); });
-  return arcs;
-}
-
 // Lines that cross both chords of an arc, about as many as cross the arc.
-double RadialSeries::lines_across(double r, const Arc& arc) const {
+double RadialSeries::lines_across(double r, const DiskPart::Arc& arc) const {
   double lines = 0;
   for (const double sign : {1.0, -1.0}) {
-    const BoardSide chord(frame_.smooth, frame_.jump, frame_.w, on_circle(r, sign * arc.from),
-                          on_circle(r, sign * arc.to), noise_.s, noise_.j, noise_.w);
+    const BoardSide chord(frame_.smooth, frame_.jump, frame_.w, part_.on_circle(r, sign * arc.from),
+                          part_.on_circle(r, sign * arc.to), noise_.s, noise_.j, noise_.w);
     lines += chord.lines_beyond(chord.w0.value());
   }
   return lines;
@@ -289,9 +215,9 @@ double RadialSeries::lines_across(double r, const Arc& arc) const {
 void RadialSeries::plan_circle(std::size_t circle, double goal) {
   const double r = circle_radius(circle);
   CirclePlan plan{circle, goal, 0, 0, {}};
-  const std::vector<Arc> arcs = arcs_of(r);
+  const std::vector<DiskPart::Arc> arcs = part_.arcs_of(r);
   double length = 0;
-  for (const Arc& arc : arcs) length += arc.to - arc.from;
+  for (const DiskPart::Arc& arc : arcs) length += arc.to - arc.from;
   // Two slivers of angle a: of r^2 a^3 / 12 at most each, and r a^2 / 8 high.
   double half = weights_[circle].half();
   if (circle + 1 < weights_.size()) half = std::min(half, weights_[circle + 1].half());
@@ -309,7 +235,7 @@ void RadialSeries::plan_circle(std::size_t circle, double goal) {
   };
   plan.step = std::max(widest([&](double a) { return slivers(a) * length / a; }, 0.5 * goal),
                        std::min(plan.longest, 2 * length / kMostSides));
-  for (const Arc& arc : arcs) {
+  for (const DiskPart::Arc& arc : arcs) {
     const auto add = [&](double from, double to) {
       const double steps = std::ceil((to - from) / plan.step);
       if (!(steps > 0)) return;
@@ -317,7 +243,7 @@ void RadialSeries::plan_circle(std::size_t circle, double goal) {
       plan.runs.push_back({{from, to}, steps});
     };
     double end = arc.to;
-    if (arc.to < std::numbers::pi && arc.to == angle_at(r, 0)) {
+    if (part_.meets_horizon(r) && &arc == &arcs.back()) {
       // On the horizon the last side may be long, for a quarter of the goal: beyond it lines have no end.
       double last = std::min(widest(slivers, 0.25 * goal), arc.to - arc.from);
       const double most = std::min(plan.longest, arc.to - arc.from);
@@ -338,8 +264,8 @@ void RadialSeries::add_circle(const CirclePlan& plan) {
     const double each = (arc.to - arc.from) / steps, share = 0.1 * plan.goal / steps;
     for (double i = 0; i < steps; ++i) {
       const double from = arc.from + i * each, to = i + 1 == steps ? arc.to : arc.from + (i + 1) * each;
-      add_side(on_circle(r, from), on_circle(r, to), stretch, share);
-      add_side(on_circle(r, -to), on_circle(r, -from), stretch, share);
+      add_side(part_.on_circle(r, from), part_.on_circle(r, to), stretch, share);
+      add_side(part_.on_circle(r, -to), part_.on_circle(r, -from), stretch, share);
     }
   }
 }
@@ -348,7 +274,7 @@ void RadialSeries::lay_out(double goal) {
   goal_ = 0.1 * goal;
   circles_.clear();
   bound_ = HUGE_VAL;
-  if (!frame_.valid() || !(noise_.w < 0x1p-30 * depth_)) return;
+  if (!frame_.valid() || !(noise_.w < 0x1p-30 * part_.depth())) return;
   for (int m = 1; m <= kMostTerms && bound_ > 0.3 * goal; ++m) {
     const double bound = remainder_after(m);
     if (!(bound < bound_)) continue;
@@ -364,8 +290,7 @@ void RadialSeries::lay_out(double goal) {
     fit = std::max(fit, pieces_[i].error);
     most = std::max(most, pieces_[i].top);
   }
-  const double away = slope_ > 0 ? (std::fabs(centre_) + depth_) / slope_ : 0;
-  bound_ += fit * area_ + 64 * kUnit * radius_ * (radius_ + away) * most;
+  bound_ += fit * part_.area(0, part_.radius()) + 64 * kUnit * part_.radius() * part_.reach() * most;
   const double each = goal_ / static_cast<double>(pieces_.size());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const double lost = by_size(jump_at(i, 0), circle_radius(i), count_, 0);
@@ -383,7 +308,8 @@ Bounded RadialSeries::integrate() {
   sides_.clear();
   touched_ = 0;
   for (const CirclePlan& plan : circles_) add_circle(plan);
-  add_chord(0.25 * goal_);
+  const std::vector<Vec2> path = part_.path();
+  for (std::size_t i = 1; i < path.size(); ++i) add_line(path[i - 1], path[i], 0.25 * goal_);
   Sum sum;
   double error = bound_ + touched_;
   for (const Side& side : sides_) {

@@ -1,17 +1,14 @@
-// The series of checker_series.h for a radial weight k(r): J over the part of its support, a disk around the origin,
-// that lies between the horizon and some W, less a notch around the origin: there k(r) need not be smooth, and
-// derivatives of r grow without end.
+// The series of checker_series.h for a radial weight k(r): J over a part of its support (radial_part.h).
 //
-// The part is cut into rings, between the knots of k and further in at halves of their radii: a bound on the remainder
-// in each, the smaller the nearer the horizon the ring is. The same terms everywhere, so that rings of one piece of k
-// have no boundary between them but that of a core around the origin, where the part holds it, in which there is one
-// term. Boundaries are:
+// The part is cut into rings, between the knots of k and further in at smaller and smaller radii: a bound on the
+// remainder in each, the smaller the nearer the horizon the ring is. The same terms everywhere, so that rings of one
+// piece of k have no boundary between them but that of a core around the origin, where the part holds it, in which
+// there is one term. Boundaries are:
 //  - the chord W = constant and the notch, sides like any others;
-//  - circles at knots and around the core, across which only derivatives of k jump, or nothing much: by absolute
-//  values,
-//    |C / det| being |G - e p| at most on each unit of length;
-//  - the rim, the same where k falls to 0 there and a polygon inside it where k jumps: what lies between the two is so
-//    thin that its area is bound enough.
+//  - circles at knots, the last of which is the rim: where what jumps there comes to little, by absolute values, |C /
+//    det| being |G - e p| at most on each unit of length; otherwise as a polygon inside the circle, so near to it that
+//    the area between the two is bound enough;
+//  - the circle around the core, by absolute values.
 #pragma once
 
 #include <span>
@@ -22,20 +19,12 @@
 #include "testimages/board_frame.h"
 #include "testimages/board_side.h"
 #include "testimages/homography.h"
+#include "testimages/radial_part.h"
 #include "testimages/radial_rings.h"
 #include "testimages/radial_terms.h"
 #include "testimages/series_side.h"
 
 namespace moire {
-
-// 0 <= W <= depth, less what has W >= notch_depth and is no further than `notch`, pixels, from the line through the
-// origin across lines of constant W. No notch: 0. Sides pass the origin at clearance() or more.
-struct RadialPart {
-  double depth;
-  double notch = 0, notch_depth = 0;
-
-  static double clearance(double radius) { return kInnermost * radius; }
-};
 
 class RadialSeries {
  public:
@@ -74,20 +63,13 @@ class RadialSeries {
     SeriesAim aim;
   };
 
-  // Between two angles from the way to larger W.
-  struct Arc {
-    double from, to;
-  };
   // A polygon along a circle: so many steps on each arc, none longer than `longest`.
   struct CirclePlan {
     std::size_t circle;
     double goal, step, longest;
-    std::vector<std::pair<Arc, double>> runs;
+    std::vector<std::pair<DiskPart::Arc, double>> runs;
   };
 
-  double row_w(double r) const;               // largest W on the circle of radius r inside the part
-  double angle_at(double r, double w) const;  // between the way to larger W and where the circle meets W = w
-  Vec2 on_circle(double r, double angle) const;
   void make_rings(std::span<const RadialRing> rings);
   double remainder_after(int terms) const;
   double by_length(const TermBounds& top, double r, int terms, int first) const;
@@ -97,9 +79,7 @@ class RadialSeries {
   void finish(Stretch stretch, double w);
   void add_side(Vec2 a, Vec2 b, std::size_t stretch, double horizon);
   void add_line(Vec2 a, Vec2 b, double horizon);
-  void add_chord(double horizon);
-  std::vector<Arc> arcs_of(double r) const;
-  double lines_across(double r, const Arc& arc) const;
+  double lines_across(double r, const DiskPart::Arc& arc) const;
   void plan_circle(std::size_t circle, double goal);
   void add_circle(const CirclePlan& plan);
   double circle_radius(std::size_t circle) const { return pieces_[circle].high; }
@@ -107,16 +87,12 @@ class RadialSeries {
 
   BoardFrame frame_;
   std::span<const PieceWeight> pieces_;
-  RadialPart part_;
-  double depth_, radius_, centre_, slope_, towards_;  // W at the origin, its slope and the angle of that
+  DiskPart part_;
   SeriesNoise noise_;
   std::vector<RadialTerms> weights_;  // of each piece
   std::vector<Ring> rings_;           // from the outside in
   double core_ = 0;                   // radius of what lies inside all rings; 0: they leave nothing out
   double largest_core_ = 0;           // that it may have
-  double area_ = 0;                   // of the part, at most
-  TermBounds rim_{};
-  std::vector<TermBounds> knots_;  // at pieces_[i].low, i > 0
   int count_ = 1;
   double goal_ = 0, remainder_ = 0, bound_ = 0;  // bound_: on all but the sides
   std::vector<CirclePlan> circles_;
