@@ -9,6 +9,7 @@
 #include "oracle/coverage.h"
 #include "oracle/filtered.h"
 #include "oracle/one_point.h"
+#include "oracle/one_point_radial.h"
 #include "stress/exact_case.h"
 #include "stress/naive.h"
 #include "stress/views.h"
@@ -343,11 +344,42 @@ ExactCase two_colours_case(Chance& chance) {
   return c;
 }
 
+// Radial filters on the whole plane in one-point perspective, to its horizon: chords are the oracle's way. Columns are
+// no further to the side and squares no finer than it can do in some ten milliseconds.
+ExactCase chords_case(Chance& chance) {
+  static const std::vector<std::string> kFilters = filter_variants(Symmetry::radial);
+  const FilterPtr filter = checked_filter(chance.pick(kFilters));
+  const double reach = filter->filter.radius(), focal = chance.decades(5, 100);
+  const Camera camera{.focal = focal,
+                      .principal = {std::round(chance.between(0, 64)) + 0.25 * static_cast<double>(chance.below(4)),
+                                    chance.between(0, 64)},
+                      .height = std::min(chance.decades(0.2, 5), 100 / focal),
+                      .pitch = chance.between(-10, 40),
+                      .yaw = 0,
+                      .roll = chance.coin() ? 0 : chance.between(-180, 180)};
+  // The horizon through the support, now and then touching its rim, or a little above it.
+  constexpr double kTouching[] = {-1, 1, 0};
+  const double rows = chance.below(6) == 0 ? reach * chance.pick(kTouching) + chance.sign() * chance.decades(1e-9, 1e-2)
+                                           : reach * chance.between(-0.98, 1.2);
+  View view = mirrored(chance, scenes::view_of(camera, rows, chance.between(-0.3, 0.3)));
+  if (chance.coin())
+    for (std::size_t i = 0; i < 3; ++i) std::swap(view.homography[i], view.homography[3 + i]);  // u and v
+  ExactCase c = finished(scenes::plane(view.homography), view.pixel(), filter);
+  c.oracle_doubt = 0;
+  c.truth = [filter, board = oracle::board_of(c.image), pixel = c.pixel] {
+    return oracle::one_point(oracle::ChordKernel(filter->filter.text()), board, pixel);
+  };
+  return c;
+}
+
 ExactCase make_case(CaseKey key) {
   Chance chance("boards", key);
   const std::uint64_t kind = key.index % kKinds;
   if (kind == one_point) return one_point_case(chance);
-  if (kind == endless) return chance.below(6) == 0 ? wide_window_case(chance) : two_colours_case(chance);
+  if (kind == endless) {
+    if (chance.below(30) == 0) return chords_case(chance);
+    return chance.below(6) == 0 ? wide_window_case(chance) : two_colours_case(chance);
+  }
   const FilterPtr filter = pick_filter(chance);
   if (kind == few_squares) return few_squares_case(chance, filter);
   if (kind == vanishing_point) return vanishing_case(chance, filter);
