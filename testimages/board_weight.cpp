@@ -20,6 +20,8 @@ constexpr double kFewSquares = 50, kFewSquaresOfMany = 200;
 constexpr double kFewInRectangle = 12;
 // The most squares of a window that are clipped where the series' remainder stays above what is asked.
 constexpr double kMostSquares = 10000;
+// As many take about as long as the series, and are clipped in its place where its bound is above what is asked.
+constexpr double kSomeSquares = 1000;
 // More rectangles than this, of tabulated kernels, would take longer than they are worth.
 constexpr std::size_t kMostRectangles = 1024;
 // Pieces that a side is cut into, of some 20 ns each under a box.
@@ -222,6 +224,8 @@ std::optional<WeightIntegral> board_weight(const LocalHomography& local, const E
 
   // The value is half of the product's integral, and rounding and squares come on top; the horizon crosses about one
   // row of rectangles.
+  const std::size_t segments = rest.segments.size();
+  const double area_error = rest.area_error;
   const auto n = static_cast<double>(pieces.size());
   bool horizon = false;
   for (const Vec2 p : window.board) horizon |= row_at(local.w, p).hi <= 0x1p-40 * largest_w(local.w, window.board);
@@ -247,6 +251,15 @@ std::optional<WeightIntegral> board_weight(const LocalHomography& local, const E
     const WeightIntegral part = rectangle(lost, quick);
     sum.add(part.value);
     bound += part.bound;
+  }
+  // Squares that are all but lines: the series does not tell where theirs are, but single squares are clipped sharply.
+  const double worth = bound > kFailed * goal                      ? kMostSquares
+                       : bound > std::max(goal, WeightAim{}.bound) ? kSomeSquares
+                                                                   : 0;
+  if (worth > 0 && squares_met(local, window.board) <= worth) {
+    rest.segments.resize(segments);
+    rest.area_error = area_error;
+    return std::nullopt;
   }
   return WeightIntegral{sum.value(), bound * (1 + 0x1p-20) + 2 * kUnit * std::fabs(sum.value())};
 }
