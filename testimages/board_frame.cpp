@@ -39,7 +39,7 @@ BoardFrame::BoardFrame(const Row& s, const Row& j, const Row& third)
       det(determinant(s, j, third)),
       e(over(minor(j, third), 0x1p-98 * minor_size(j, third), det)) {}
 
-bool BoardFrame::valid() const { return det.error <= 0x1p-21 * std::fabs(det.value); }
+bool BoardFrame::valid() const { return det.value != 0 && det.error <= 0x1p-21 * std::fabs(det.value); }
 
 Bounded BoardFrame::e_times(double factor) const {
   return {e.value * factor, (e.error + kUnit * std::fabs(e.value)) * factor};

@@ -20,6 +20,8 @@ constexpr double kFewSquares = 50, kFewSquaresOfMany = 200;
 constexpr double kFewInRectangle = 12;
 // The most squares of a window that are clipped where the series' remainder stays above what is asked.
 constexpr double kMostSquares = 10000;
+// And under a weight of one piece, whose squares take a microsecond each.
+constexpr double kMostSquaresOfBox = 40000;
 // As many take about as long as the series, and are clipped in its place where its bound is above what is asked.
 constexpr double kSomeSquares = 1000;
 // More rectangles than this, of tabulated kernels, would take longer than they are worth.
@@ -203,7 +205,7 @@ double squares_for_each(const std::vector<RectangleIntegral>& rectangles) {
   std::vector<double> squares;
   for (const RectangleIntegral& r : rectangles) squares.push_back(r.squares());
   std::sort(squares.begin(), squares.end());
-  double left = kMostSquares;
+  double left = rectangles.size() == 1 ? kMostSquaresOfBox : kMostSquares;
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const double even = left / static_cast<double>(squares.size() - i);
     if (squares[i] > even) return even;

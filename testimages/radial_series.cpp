@@ -20,7 +20,7 @@ constexpr int kMostRings = 24;
 // Lines between squares that a polygon along the rim may cross, of some 100 ns each, and its sides.
 constexpr double kMostLines = 1000000;
 constexpr double kMostSides = 8000;
-constexpr double kMostPieces = 300000;
+constexpr double kMostPieces = 100000;  // of a side
 // A polygon along a knot's circle leaves the next piece of k by at most this share of its half length: the piece's
 // polynomial and twice the bounds on its errors are good for that.
 constexpr double kBeyondKnot = 0.001;
@@ -101,7 +101,7 @@ TermBounds RadialSeries::jump_at(std::size_t circle, double within) const {
 void RadialSeries::finish(Stretch s, double w) {
   s.terms.error = SideInterpolant::error(s.terms.error, s.terms.top, s.beside);
   double power = 1;
-  const double ratio = (w + noise_.w) / part_.depth() * (1 + 4 * kUnit);
+  const double ratio = (w + noise_.w) / part_.depth() * (1 + 0x1p-30);
   s.terms.sizes = {s.terms.top, s.terms.error, kNoPolynomial, count_, ratio};
   for (int j = 0; j < count_; ++j, power *= ratio) {
     s.terms.nearby += sup(j + 1) * s.beside[static_cast<std::size_t>(j)] * power;
@@ -179,7 +179,7 @@ void RadialSeries::add_line(Vec2 a, Vec2 b, double horizon) {
   };
   for (double r = nearest; r < part_.radius(); r *= 2) cut_at(r);
   for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) {
-    const double r = circle_radius(i), touch = 0x1p-40 * r;
+    const double r = circle_radius(i), touch = std::max(0x1p-40 * r, 8 * kUnit * part_.reach());
     cut_at(r);
     // Where a line just touches a knot's circle, rounding says how far it runs on which side.
     if (std::fabs(r - nearest) < touch) touched_ += 4 * std::sqrt(r * touch) * by_length(jump_at(i, 0), r, count_, 0);
@@ -294,8 +294,13 @@ void RadialSeries::lay_out(double goal) {
   const double each = goal_ / static_cast<double>(pieces_.size());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const double lost = by_size(jump_at(i, 0), circle_radius(i), count_, 0);
-    if (lost <= each) {
+    double lines = 0;
+    if (lost > each && !part_.meets_horizon(circle_radius(i))) {
+      for (const DiskPart::Arc& arc : part_.arcs_of(circle_radius(i))) lines += lines_across(circle_radius(i), arc);
+    }
+    if (lost <= each || lines > 3 * kMostLines) {
       bound_ += lost;
+      remainder_ += lost;  // more squares take away of that, too
     } else {
       plan_circle(i, 4 * each);
     }
