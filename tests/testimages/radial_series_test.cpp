@@ -124,7 +124,7 @@ void compare_jumps(std::uint64_t seed, int wanted) {
 
 }  // namespace
 
-TEST_SUITE("unit") {
+TEST_SUITE("heavy") {
   TEST_CASE("by parts along u and along v is the same under radial weights, behind any depth") {
     compare_forms(111, 25, false);
   }

@@ -188,7 +188,7 @@ std::array<double, test::kJet> largest_beside(const Flow& flow, const PieceWeigh
 
 }  // namespace
 
-TEST_SUITE("unit") {
+TEST_SUITE("heavy") {
   TEST_CASE("terms of polynomials in r^2 are those of the recursion in exact polynomials, within their errors") {
     Draw draw(101);
     double worst = 0;
