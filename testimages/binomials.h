@@ -1,16 +1,14 @@
-// Binomial coefficients, as many as the terms of a series (euler_polynomials.h) need.
+// Binomial coefficients, as many as series and their bounds need.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include "testimages/euler_polynomials.h"
-
 namespace moire {
 
-// kBinomials[n][k], n <= kMaxTerms + 2.
+// kBinomials[n][k], n <= 25: all of them are doubles.
 inline constexpr auto kBinomials = [] {
-  constexpr std::size_t kMost = kMaxTerms + 2;
+  constexpr std::size_t kMost = 25;
   std::array<std::array<double, kMost + 1>, kMost + 1> b{};
   for (std::size_t n = 0; n <= kMost; ++n) {
     b[n][0] = b[n][n] = 1;

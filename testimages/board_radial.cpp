@@ -29,31 +29,12 @@ constexpr double kLittle = 0.1;
 // The largest notch around the centre, as a share of the radius; less than 1/2, where several kernels have a knot.
 constexpr double kNotch = 0.45;
 
-double largest_w(const BoardWindow& window) {
-  double largest = 0;
-  for (const Vec2 p : window.board) largest = std::max(largest, row_at(window.local.w, p).value());
-  return largest;
-}
-
 // What a notch leaves between its bottom and the horizon, of the way from there to the centre or to the chord.
 struct Left {
   bool of_centre;
   double share;
 };
 constexpr Left kLeft[] = {{true, 0.3}, {true, 0.5}, {true, 0.65}, {false, 0.25}, {false, 0.5}};
-
-// W with about so many squares in front of it.
-double depth_with(const BoardWindow& window, double squares) {
-  const Row& w = window.local.w;
-  double low = 0, high = largest_w(window);
-  Polygon front;
-  for (int step = 0; step < 24; ++step) {
-    const double mid = 0.5 * (low + high);
-    clip(window.board, {w.a, w.b, w.c.value() - mid}, front);
-    (squares_met(window.local, front) <= squares ? high : low) = mid;
-  }
-  return high;
-}
 
 // Behind about that depth.
 RadialPart plain_part(const BoardWindow& window, double depth) {
@@ -115,8 +96,7 @@ class Cut {
 void append_squares_of(BoardWindow& window, const SharpPolygon& polygon, Boundary& rest) {
   if (polygon.empty()) return;
   window.part = polygon;
-  window.board.clear();
-  for (std::size_t i = 0; i < polygon.size(); ++i) window.board.push_back(polygon.at(i));
+  window.board = rounded(polygon);
   append_squares(window, rest);
 }
 
@@ -175,7 +155,7 @@ WeightIntegral board_radial(const LocalHomography& local, const Extent& extent, 
       const bool last = squares > kMaxCellsOfMore && goal >= least;
       const double enough = 2 * (last ? std::max(goal, kTarget) : goal);
       if (squares >= all || (best && best->estimate() <= enough)) break;
-      const double depth = depth_with(window, squares);
+      const double depth = depth_with(local, window.board, 0, largest_w(local, window.board), squares);
       if (!(depth > 0)) continue;
       const auto attempt = [&](const RadialPart& part) {
         Cut cut(local, weight, part, 2 * goal);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/rounding.h"
+#include "testimages/board_side.h"
 #include "testimages/half_covered.h"
 
 namespace moire {
@@ -94,6 +95,34 @@ double squares_met(const LocalHomography& local, const Polygon& polygon) {
     before = q;
   }
   return std::fabs(area) + 0.5 * perimeter;
+}
+
+double largest_w(const LocalHomography& local, const Polygon& polygon) {
+  double largest = 0;
+  for (const Vec2 p : polygon) largest = std::max(largest, row_at(local.w, p).value());
+  return largest;
+}
+
+Polygon rounded(const SharpPolygon& part) {
+  Polygon polygon;
+  for (std::size_t i = 0; i < part.size(); ++i) polygon.push_back(part.at(i));
+  return polygon;
+}
+
+double squares_before(const LocalHomography& local, const Polygon& polygon, double depth) {
+  Polygon front;
+  clip(polygon, {local.w.a, local.w.b, local.w.c.value() - depth}, front);
+  return squares_met(local, front);
+}
+
+double depth_with(const LocalHomography& local, const Polygon& polygon, double depth, double deepest, double squares) {
+  if (squares_before(local, polygon, depth) <= squares) return depth;
+  double low = depth, high = deepest;
+  for (int step = 0; step < 24; ++step) {
+    const double mid = 0.5 * (low + high);
+    (squares_before(local, polygon, mid) <= squares ? high : low) = mid;
+  }
+  return high;
 }
 
 namespace {

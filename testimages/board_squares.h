@@ -39,6 +39,18 @@ struct BoardWindow {
 // About how many squares a polygon meets; infinite where it comes within rounding of the horizon.
 double squares_met(const LocalHomography& local, const Polygon& polygon);
 
+// The same of the part of a polygon with W >= depth.
+double squares_before(const LocalHomography& local, const Polygon& polygon, double depth);
+
+// Largest W of a polygon, or 0.
+double largest_w(const LocalHomography& local, const Polygon& polygon);
+
+// The smallest W from `depth` to `deepest` with at most so many squares before it, to 2^-24 of the way.
+double depth_with(const LocalHomography& local, const Polygon& polygon, double depth, double deepest, double squares);
+
+// Its vertices.
+Polygon rounded(const SharpPolygon& part);
+
 // Appends the boundary of the even squares inside the window. What lies beyond the squares that are clipped counts as
 // half covered and is unresolved.
 void append_squares(BoardWindow& window, Boundary& out);

@@ -36,14 +36,6 @@ constexpr double kFailed = 100, kShareOfLost = 0.05;
 // About what rounding comes to in a rectangle, and in one on the horizon.
 constexpr double kRounding = 0x1p-44, kRoundingAtHorizon = 0x1p-42;
 
-using Row = LocalHomography::Row;
-
-double largest_w(const Row& w, const Polygon& polygon) {
-  double largest = 0;
-  for (const Vec2 p : polygon) largest = std::max(largest, row_at(w, p).value());
-  return largest;
-}
-
 double area_of(const Polygon& polygon) {
   double area = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -51,30 +43,6 @@ double area_of(const Polygon& polygon) {
     area += 0.5 * (a.x * b.y - b.x * a.y);
   }
   return area;
-}
-
-Polygon rounded(const SharpPolygon& part) {
-  Polygon polygon;
-  for (std::size_t i = 0; i < part.size(); ++i) polygon.push_back(part.at(i));
-  return polygon;
-}
-
-// Squares of the part of a polygon with W >= depth.
-double squares_before(const LocalHomography& local, const Polygon& polygon, double depth) {
-  Polygon front;
-  clip(polygon, {local.w.a, local.w.b, local.w.c.value() - depth}, front);
-  return squares_met(local, front);
-}
-
-// The smallest W, at least `depth`, with at most so many squares before it.
-double depth_with(const LocalHomography& local, const Polygon& polygon, double depth, double deepest, double squares) {
-  if (squares_before(local, polygon, depth) <= squares) return depth;
-  double low = depth, high = deepest;
-  for (int step = 0; step < 24; ++step) {
-    const double mid = 0.5 * (low + high);
-    (squares_before(local, polygon, mid) <= squares ? high : low) = mid;
-  }
-  return high;
 }
 
 // What is asked of one rectangle: bounds on the integral of the square waves' product.
@@ -116,7 +84,7 @@ RectangleIntegral::RectangleIntegral(const LocalHomography& local, const Extent&
     : x_(x), y_(y), share_(share), window_(local, extent, Rect{{x.low, y.low}, {x.high, y.high}}) {
   squares_ = squares_met(local, window_.board);
   if (squares_ <= kFewInRectangle) return;
-  deepest_ = largest_w(local.w, window_.board);
+  deepest_ = largest_w(local, window_.board);
   if (!(deepest_ > 0)) return;
   along_u_.emplace(local.u, local.v, local.w, x_, y_, deepest_);
   along_v_.emplace(local.v, local.u, local.w, x_, y_, deepest_);
@@ -230,7 +198,7 @@ std::optional<WeightIntegral> board_weight(const LocalHomography& local, const E
   const double area_error = rest.area_error;
   const auto n = static_cast<double>(pieces.size());
   bool horizon = false;
-  for (const Vec2 p : window.board) horizon |= row_at(local.w, p).hi <= 0x1p-40 * largest_w(local.w, window.board);
+  for (const Vec2 p : window.board) horizon |= row_at(local.w, p).hi <= 0x1p-40 * largest_w(local, window.board);
   const double goal = std::max(horizon ? aim.at_horizon : aim.bound, finest_of(n, horizon));
   const Share share{0.2 * goal / (n * n), horizon ? 0.25 * goal / n : 0.25 * goal / (n * n)};
   std::vector<RectangleIntegral> rectangles;

@@ -31,11 +31,10 @@ T clenshaw(const T* c, std::size_t n, T t) {
   return c[0] + (t * b1 - b2);
 }
 
-// Many series, at most kMost, at one t: out[k] for k < count, coefficient i of series k at c[i stride + k]. The same
-// bits as one by one, but no step waits for the one before it.
-template <std::size_t kMost = kMaxTerms + 1>
+// Many series, at most kMaxTerms + 1, at one t: out[k] for k < count, coefficient i of series k at c[i stride + k]. The
+// same bits as one by one, but no step waits for the one before it.
 inline void clenshaw(const double* c, std::size_t n, std::size_t stride, std::size_t count, double t, double* out) {
-  double b1[kMost] = {}, b2[kMost] = {};
+  double b1[kMaxTerms + 1] = {}, b2[kMaxTerms + 1] = {};
   for (std::size_t i = n; i-- > 1;) {
     for (std::size_t k = 0; k < count; ++k) {
       const double b = c[i * stride + k] + (2 * t * b1[k] - b2[k]);

@@ -31,16 +31,6 @@ constexpr double kBeforePiece = 0.002;  // half lengths
 // In double-double, rounding errors are far below this share of sums of absolute values.
 constexpr double kRounding = 0x1p-84;
 
-// kBinomial[l][n].
-constexpr auto kBinomial = [] {
-  std::array<std::array<double, kMaxTerms + 1>, kTaylor + 1> b{};
-  for (std::size_t n = 0; n <= kTaylor; ++n) {
-    b[n][0] = 1;
-    for (std::size_t k = 1; k <= kMaxTerms && k <= n; ++k) b[n][k] = b[n - 1][k - 1] + b[n - 1][k];
-  }
-  return b;
-}();
-
 // One piece's k: the Chebyshev series of its Taylor coefficients.
 class SharpTaylor {
  public:
@@ -104,12 +94,12 @@ RadialRing ring_of(std::size_t piece, const SharpTaylor& k, const RadialTaylor& 
     off[n] = kRounding * size[n] + 0x1p-50 * std::fabs(value[n].hi);
     for (std::size_t l = n + 1; l < kTaylor; ++l) {
       power *= h;
-      off[n] += kBinomial[l][n] * (std::fabs(value[l].hi) + kRounding * size[l]) * power;
+      off[n] += kBinomials[l][n] * (std::fabs(value[l].hi) + kRounding * size[l]) * power;
     }
     // The rest, |K_l| <= most / disk^l: terms that fall by this ratio or faster.
     const auto first = static_cast<double>(kTaylor), order = static_cast<double>(n);
     const double ratio = (first + 1) / (first + 1 - order) * h / disk;
-    const double term = kBinomial[kTaylor][n] * most * std::pow(h / disk, first - order) / std::pow(disk, order);
+    const double term = kBinomials[kTaylor][n] * most * std::pow(h / disk, first - order) / std::pow(disk, order);
     off[n] += ratio < 0.99 ? term / (1 - ratio) : HUGE_VAL;
   }
 

@@ -14,7 +14,6 @@ namespace {
 using Row = LocalHomography::Row;
 
 constexpr double kSlack = 1 + 0x1p-20;
-constexpr int kMostTerms = kMaxTerms;
 // Rings of the innermost piece, each half as large as the one before.
 constexpr int kMostRings = 24;
 // Lines between squares that a polygon along the rim may cross, of some 100 ns each, and its sides.
@@ -275,7 +274,7 @@ void RadialSeries::lay_out(double goal) {
   circles_.clear();
   bound_ = HUGE_VAL;
   if (!frame_.valid() || !(noise_.w < 0x1p-30 * part_.depth())) return;
-  for (int m = 1; m <= kMostTerms && bound_ > 0.3 * goal; ++m) {
+  for (int m = 1; m <= kMaxTerms && bound_ > 0.3 * goal; ++m) {
     const double bound = remainder_after(m);
     if (!(bound < bound_)) continue;
     bound_ = bound;

@@ -14,7 +14,6 @@ class RadialTaylor {
   // The first `count` coefficients, k^(n) / n!; at most kMaxTerms + 1.
   RadialTaylor(const PieceWeight& piece, std::size_t count);
 
-  std::size_t count() const { return count_; }
   double half() const { return half_; }  // of the piece's length
   // The first n of them at r, to out.
   void at(double r, std::size_t n, double* out) const;

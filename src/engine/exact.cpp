@@ -41,10 +41,10 @@ void require_sweepable(const Filter& filter) {
                                          join(known));
 }
 
-// The kernel as scenes may know it.
 double fit_error(const Kernel::PieceBounds& bounds) { return bounds.k_error_at_x; }
 double fit_error(const RadialKernel::PieceBounds& bounds) { return bounds.k_error; }
 
+// The kernel, separable or radial, as scenes may know it.
 template <class Kernel>
 std::vector<PieceWeight> pieces_of(const Kernel& kernel) {
   std::vector<PieceWeight> pieces;

@@ -44,12 +44,6 @@ SharpPolygon notch_of(BoardWindow& window, const RadialPart& part) {
   return both;
 }
 
-Polygon rounded(const SharpPolygon& part) {
-  Polygon out;
-  for (std::size_t i = 0; i < part.size(); ++i) out.push_back(part.at(i));
-  return out;
-}
-
 Bounded integral(const SeenFilter& seen, const Boundary& boundary) {
   const RadialKernel& kernel = seen.filter.radial_kernel();
   RadialIntegral sum(kernel);

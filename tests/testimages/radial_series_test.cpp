@@ -163,9 +163,7 @@ TEST_SUITE("heavy") {
   TEST_CASE("the radial series is linear in weights that jump at a knot, by parts along u and along v") {
     compare_jumps(114, 6);
   }
-}
 
-TEST_SUITE("heavy") {
   TEST_CASE("by parts along u and along v is the same under radial weights, in many random windows") {
     compare_forms(115, 150, false);
     compare_forms(116, 150, true);
