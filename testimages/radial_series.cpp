@@ -210,6 +210,22 @@ double RadialSeries::lines_across(double r, const DiskPart::Arc& arc) const {
   return lines;
 }
 
+// Of an arc that ends on the horizon the angle of its last side: from `least` to `most`, so that no more lines cross
+// the rest than may, to a hundredth.
+double RadialSeries::last_side(double r, const DiskPart::Arc& arc, double least, double most) const {
+  const auto enough = [&](double last) { return lines_across(r, {arc.from, arc.to - last}) <= kMostLines; };
+  double too_short = least, last = least;
+  while (last < most && !enough(last)) {
+    too_short = last;
+    last = std::min(1.5 * last, most);
+  }
+  while (last > 1.01 * too_short) {
+    const double between = std::sqrt(last * too_short);
+    (enough(between) ? last : too_short) = between;
+  }
+  return last;
+}
+
 // A circle as a polygon inside it.
 void RadialSeries::plan_circle(std::size_t circle, double goal) {
   const double r = circle_radius(circle);
@@ -244,9 +260,8 @@ void RadialSeries::plan_circle(std::size_t circle, double goal) {
     double end = arc.to;
     if (part_.meets_horizon(r) && &arc == &arcs.back()) {
       // On the horizon the last side may be long, for a quarter of the goal: beyond it lines have no end.
-      double last = std::min(widest(slivers, 0.25 * goal), arc.to - arc.from);
       const double most = std::min(plan.longest, arc.to - arc.from);
-      while (last < most && lines_across(r, {arc.from, arc.to - last}) > kMostLines) last = std::min(1.5 * last, most);
+      const double last = last_side(r, arc, std::min(widest(slivers, 0.25 * goal), most), most);
       end = arc.to - last;
       bound_ += slivers(last);
       plan.runs.push_back({{end, arc.to}, 1});

@@ -80,6 +80,7 @@ class RadialSeries {
   void add_side(Vec2 a, Vec2 b, std::size_t stretch, double horizon);
   void add_line(Vec2 a, Vec2 b, double horizon);
   double lines_across(double r, const DiskPart::Arc& arc) const;
+  double last_side(double r, const DiskPart::Arc& arc, double least, double most) const;
   void plan_circle(std::size_t circle, double goal);
   void add_circle(const CirclePlan& plan);
   double circle_radius(std::size_t circle) const { return pieces_[circle].high; }
@@ -92,7 +93,6 @@ class RadialSeries {
   std::vector<RadialTerms> weights_;  // of each piece
   std::vector<Ring> rings_;           // from the outside in
   double core_ = 0;                   // radius of what lies inside all rings; 0: they leave nothing out
-  double largest_core_ = 0;           // that it may have
   int count_ = 1;
   double goal_ = 0, remainder_ = 0, bound_ = 0;  // bound_: on all but the sides
   std::vector<CirclePlan> circles_;

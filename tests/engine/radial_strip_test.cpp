@@ -154,7 +154,7 @@ LocalHomography within_a_square(Draw& draw, double radius) {
 }
 
 // The largest share of their bounds that errors reach there, of as many terms as are asked by the goals.
-double compare_within_a_square(std::uint64_t seed, int cases, const SeenFilter& seen) {
+double compare_within_a_square(std::uint64_t seed, int cases, double goal, const SeenFilter& seen) {
   Draw draw(seed);
   double largest = 0;
   const double radius = seen.weight.radius();
@@ -168,7 +168,7 @@ double compare_within_a_square(std::uint64_t seed, int cases, const SeenFilter& 
     if (behind.empty()) continue;
     const Bounded truth = by_squares(seen, window, behind);
     RadialSeries series(local.u, local.v, local.w, seen.weight, part);
-    series.lay_out(1e-6);
+    series.lay_out(goal);
     const Bounded got = series.integrate();
     const double miss = std::fabs(got.value - truth.value), bound = got.error + truth.error;
     CAPTURE(i);
@@ -181,23 +181,20 @@ double compare_within_a_square(std::uint64_t seed, int cases, const SeenFilter& 
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("in a part of one square the radial series is within its bounds, which are nearly reached") {
-    double largest = 0;
-    for (const std::string& text : test::radial_texts()) {
-      CAPTURE(text);
-      const double share = compare_within_a_square(123, 60, SeenFilter(text));
-      largest = std::max(largest, share);
-    }
-    MESSAGE("largest error over its bound " << largest);
-    CHECK(largest > 0.5);
-  }
-
   TEST_CASE("the radial series behind two depths differs by the squares between them") {
     compare_many(121, 25, compare_strip);
   }
 
   TEST_CASE("the radial series with and without a notch differs by the squares in it") {
     compare_many(124, 25, compare_notch);
+  }
+
+  TEST_CASE("what lies between the disk filter's rim and a polygon inside it is in the bound") {
+    // With coarse goals, so that it is most of it. Without it one error is 1.7 times its bound.
+    for (const double goal : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4}) {
+      CAPTURE(goal);
+      compare_within_a_square(130, 100, goal, SeenFilter("disk"));
+    }
   }
 }
 
@@ -207,6 +204,17 @@ TEST_SUITE("heavy") {
       "windows") {
     compare_many(122, 200, compare_strip);
     compare_many(125, 200, compare_notch);
+  }
+
+  TEST_CASE("in a part of one square the radial series is within its bounds, which are nearly reached") {
+    double largest = 0;
+    for (const std::string& text : test::radial_texts()) {
+      CAPTURE(text);
+      const double share = compare_within_a_square(123, 60, 1e-6, SeenFilter(text));
+      largest = std::max(largest, share);
+    }
+    MESSAGE("largest error over its bound " << largest);
+    CHECK(largest > 0.5);
   }
 }
 
