@@ -92,7 +92,7 @@ class Limit {
     // No more than the kernel over the ground: for slivers of it that are finer than all rows that are looked at.
     const long double widest = 2 * std::sqrt(std::min(2 * k_.radius(), top_) * 2 * k_.radius());
     const Value unknown{0, top_ * widest * std::fabs(k_.rings()(0))};
-    if (2 * view_.v_rate / top_ > most_rows_) return unknown;
+    if (std::ldexp(view_.v_rate / top_, kLeastOctaves) > 2 * most_rows_) return unknown;
     // From one end of a circle to the next, d falling.
     std::vector<long double> ends{0};
     for (const long double r : k_.circles())
@@ -268,17 +268,18 @@ class Limit {
         now[p] = (factor * now[p - 1] - last_[p - 1]) / (factor - 1);
       best_ = {now[0], HUGE_VALL};
       for (std::size_t p = 0; p < kPowers; ++p) {
-        const long double gap = std::fabs(now[p] - last_[p]), error = finished_ > p + 2 ? gap + gap_[p] : HUGE_VALL;
+        const long double gap = std::fabs(now[p] - last_[p]);
+        const long double error = finished_ >= p + kLeastOctaves ? gap + gap_[p] : HUGE_VALL;
         gap_[p] = gap;
         if (error < best_.error) best_ = {now[p], error};
       }
       last_ = now;
       const long double rows = view_.v_rate / d;
-      done_ = rows > kLeastRows && (best_.error < kGoal || 2 * rows > most_rows_);
+      done_ = rows > kLeastRows && (best_.error < kGoal || (2 * rows > most_rows_ && finished_ >= kLeastOctaves));
     }
   }
 
-  static constexpr std::size_t kPowers = 5;
+  static constexpr std::size_t kPowers = 5, kLeastOctaves = 3;  // the latter to tell an error from
   static constexpr long double kGoal = 1e-12L, kLeastRows = 200;
 
   const ChordKernel& k_;

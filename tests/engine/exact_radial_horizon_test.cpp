@@ -124,23 +124,30 @@ double any_column(Draw& draw, double radius, double focal) {
   }
 }
 
-// The reference takes time like focal times height, the number of rows of squares down to one row per pixel.
+// The reference takes time like focal times height, the number of rows of squares down to one row per pixel; of ground
+// that ends with the window it knows too little where so narrow a strip holds 7e4 rows.
 View any_view(Draw& draw, double radius, double most_rows) {
   constexpr double kFocal[] = {20, 100, 500}, kHeight[] = {0.3, 1, 2, 20}, kRoll[] = {0, 90, 180, 30};
   const auto pick = [&](const auto& list, std::int64_t last) {
     return list[static_cast<std::size_t>(draw.integer(0, last))];
   };
   View view;
+  const auto rows = [&] {
+    const double slope = std::cos(view.pitch * kDegrees);
+    return view.focal * view.height / (slope * slope * std::max(radius - view.horizon, 0.0));
+  };
   do {
-    view.focal = pick(kFocal, 2);
-    view.height = pick(kHeight, 3);
-  } while (view.focal * view.height > most_rows);
-  view.horizon = any_horizon(draw, radius);
-  view.column = any_column(draw, radius, view.focal);
-  view.pitch = draw.uniform(-10, 40);
-  view.roll = draw.coin() ? 0 : draw.coin() ? pick(kRoll, 3) : draw.uniform(-180, 180);
-  view.phase = draw.coin() ? 0 : draw.coin() ? 0.5 : draw.uniform(-1, 1);
-  view.mirrored = draw.coin();
+    do {
+      view.focal = pick(kFocal, 2);
+      view.height = pick(kHeight, 3);
+    } while (view.focal * view.height > most_rows);
+    view.horizon = any_horizon(draw, radius);
+    view.column = any_column(draw, radius, view.focal);
+    view.pitch = draw.uniform(-10, 40);
+    view.roll = draw.coin() ? 0 : draw.coin() ? pick(kRoll, 3) : draw.uniform(-180, 180);
+    view.phase = draw.coin() ? 0 : draw.coin() ? 0.5 : draw.uniform(-1, 1);
+    view.mirrored = draw.coin();
+  } while (rows() > 7e4);
   return view;
 }
 
