@@ -228,6 +228,23 @@ TEST_SUITE("unit") {
     }
   }
 
+  TEST_CASE("no two of a million draws and pixels share a key") {
+    std::vector<std::array<std::uint32_t, 4>> keys;
+    for (std::uint64_t seed = 0; seed < 4; ++seed)
+      for (std::uint32_t trial = 0; trial < 16; ++trial)
+        for (std::int64_t y = -64; y < 64; ++y)
+          for (std::int64_t x = -64; x < 64; ++x) keys.push_back(pixel_key(draw_hash(seed, trial), {x, y}).words);
+    // The first two words are the hash proper: 2^20 of 64 bits are all different but for a chance of 2^-25.
+    std::vector<std::uint64_t> hashes;
+    for (const auto& k : keys) hashes.push_back(std::uint64_t{k[1]} << 32 | k[0]);
+    std::sort(hashes.begin(), hashes.end());
+    CHECK(std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end());
+    std::sort(keys.begin(), keys.end());
+    CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
+  }
+}
+
+TEST_SUITE("heavy") {
   TEST_CASE("values collide as often as chance has it: spacings of birthdays") {
     // G. Marsaglia, "A current view of random number generators", 1985: of m = 4096 birthdays in a year of 2^32 days,
     // the number of equal spacings is Poisson with mean m^3 / (4 * 2^32) = 4; 32 years make a mean of 128.
@@ -252,20 +269,5 @@ TEST_SUITE("unit") {
         CHECK(std::abs(z_of_poisson(equal, 4.0 * kYears)) < 5);
       }
     }
-  }
-
-  TEST_CASE("no two of a million draws and pixels share a key") {
-    std::vector<std::array<std::uint32_t, 4>> keys;
-    for (std::uint64_t seed = 0; seed < 4; ++seed)
-      for (std::uint32_t trial = 0; trial < 16; ++trial)
-        for (std::int64_t y = -64; y < 64; ++y)
-          for (std::int64_t x = -64; x < 64; ++x) keys.push_back(pixel_key(draw_hash(seed, trial), {x, y}).words);
-    // The first two words are the hash proper: 2^20 of 64 bits are all different but for a chance of 2^-25.
-    std::vector<std::uint64_t> hashes;
-    for (const auto& k : keys) hashes.push_back(std::uint64_t{k[1]} << 32 | k[0]);
-    std::sort(hashes.begin(), hashes.end());
-    CHECK(std::adjacent_find(hashes.begin(), hashes.end()) == hashes.end());
-    std::sort(keys.begin(), keys.end());
-    CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
   }
 }

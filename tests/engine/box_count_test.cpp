@@ -129,25 +129,6 @@ TEST_SUITE("unit") {
     CHECK(count_inside(ones) == 4999);
   }
 
-  TEST_CASE("the samples of crossed cells suffice: every pixel of hard scenes has the count of all its samples") {
-    const Scenes scenes = hard_scenes();
-    for (const PatternChoice& choice : patterns_with_cells()) {
-      for (const int wanted : {100, 144, 256, 1024, 2304}) {
-        const Pattern pattern(choice, choice.info().counts(choice.args(), wanted).above, {7, 3});
-        for (const auto& named : scenes) {
-          const std::string& name = named.first;
-          std::int64_t tested = 0;
-          const int wrong = differences(named.second, pattern, tested);
-          if (wrong == 0) continue;
-          CAPTURE(choice.text());
-          CAPTURE(wanted);
-          CAPTURE(name);
-          CHECK(wrong == 0);
-        }
-      }
-    }
-  }
-
   TEST_CASE("an edge crosses at most two cells more than there are rows and columns, and no others are tested") {
     // A line crosses at most columns + rows - 1 cells. Two rows or columns more are touched where a line runs along
     // their sides; and one row and one column of a shifted grid are tested besides.
@@ -192,6 +173,27 @@ TEST_SUITE("unit") {
     std::int64_t tested = 0;
     CHECK(differences(scene, pattern, tested) == 0);
     CHECK(tested == 4096);
+  }
+}
+
+TEST_SUITE("heavy") {
+  TEST_CASE("the samples of crossed cells suffice: every pixel of hard scenes has the count of all its samples") {
+    const Scenes scenes = hard_scenes();
+    for (const PatternChoice& choice : patterns_with_cells()) {
+      for (const int wanted : {100, 144, 256, 1024, 2304}) {
+        const Pattern pattern(choice, choice.info().counts(choice.args(), wanted).above, {7, 3});
+        for (const auto& named : scenes) {
+          const std::string& name = named.first;
+          std::int64_t tested = 0;
+          const int wrong = differences(named.second, pattern, tested);
+          if (wrong == 0) continue;
+          CAPTURE(choice.text());
+          CAPTURE(wanted);
+          CAPTURE(name);
+          CHECK(wrong == 0);
+        }
+      }
+    }
   }
 }
 

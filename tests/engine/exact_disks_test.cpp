@@ -38,60 +38,6 @@ std::vector<GivenCircle> hard_disks(std::size_t count) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("the pixels of disks sum to their area for filters that are partitions of unity") {
-    Random random(32);
-    // With room around for every window; tiny disks and touching ones among them.
-    const std::vector<GivenCircle> sets[] = {moved(test::random_disks(random, 200, 24, 0, 0.9), 8),
-                                             moved(test::random_disks(random, 200, 24, 0.9, 1), 8)};
-    int partitions = 0;
-    for (const std::string& text : test::separable_texts()) {
-      if (oracle::Kernel(text).ripple() > 1e-14L) continue;
-      const Filter filter(parse_spec(text, "test"));
-      CAPTURE(text);
-      ++partitions;
-      for (const auto& disks : sets) {
-        const TestImage scene = scenes::disks(test::rows_of(disks), {40, 40});
-        const ActiveRows rows = enumerate(scene, filter.radius());
-        const Reference reference = exact(scene, filter, rows);
-        long double sum = 0;
-        for (const double v : reference.value) sum += static_cast<long double>(v);
-        for (int y = 0; y < 40; ++y)
-          for (const Run& run : rows.row(y))
-            if (run.cover == Cover::all) sum += static_cast<long double>(run.x1 - run.x0);
-        // The promise of moire for totals.
-        CHECK(static_cast<double>(std::fabs(sum / area_of(disks) - 1)) <= 1e-13);
-      }
-    }
-    CHECK(partitions >= 5);  // box, tent, B-splines, mitchell, catmull-rom at least
-  }
-
-  TEST_CASE("the value of a pixel is the sum of its disks' values, within the bounds") {
-    Random random(33);
-    const std::vector<GivenCircle> disks = hard_disks(120);
-    const TestImage scene = scenes::disks(test::rows_of(disks));
-    for (const std::string& text : test::filter_texts()) {
-      const Filter filter(parse_spec(text, "test"));
-      CAPTURE(text);
-      for (int i = 0; i < 60; ++i) {
-        const Pixel p{static_cast<std::int64_t>(random.uniform(11, 37)),
-                      static_cast<std::int64_t>(random.uniform(11, 37))};
-        const Exact all = exact_pixel(scene, filter, p);
-        long double sum = 0, bound = 0;
-        for (const GivenCircle& d : disks) {
-          const Exact one = exact_pixel(scenes::disk(d.center, d.radius), filter, p);
-          sum += static_cast<long double>(one.value);
-          bound += static_cast<long double>(one.bound);
-        }
-        CAPTURE(p.x);
-        CAPTURE(p.y);
-        // One rounding of the whole sum, below 1.
-        CHECK(std::fabs(static_cast<long double>(all.value) - sum) <=
-              bound + static_cast<long double>(all.bound) + 0x1p-53L);
-        CHECK(static_cast<long double>(all.bound) <= bound + 0x1p-50L);
-      }
-    }
-  }
-
   TEST_CASE("box values of disks equal the oracle's areas") {
     Random random(34);
     const std::vector<GivenCircle> disks = hard_disks(120);
@@ -153,6 +99,60 @@ TEST_SUITE("heavy") {
       CHECK(static_cast<double>(all) <= area);
       CHECK(static_cast<double>(all + rows.active_pixels()) >= area);
     }
+  }
+
+  TEST_CASE("the value of a pixel is the sum of its disks' values, within the bounds") {
+    Random random(33);
+    const std::vector<GivenCircle> disks = hard_disks(120);
+    const TestImage scene = scenes::disks(test::rows_of(disks));
+    for (const std::string& text : test::filter_texts()) {
+      const Filter filter(parse_spec(text, "test"));
+      CAPTURE(text);
+      for (int i = 0; i < 60; ++i) {
+        const Pixel p{static_cast<std::int64_t>(random.uniform(11, 37)),
+                      static_cast<std::int64_t>(random.uniform(11, 37))};
+        const Exact all = exact_pixel(scene, filter, p);
+        long double sum = 0, bound = 0;
+        for (const GivenCircle& d : disks) {
+          const Exact one = exact_pixel(scenes::disk(d.center, d.radius), filter, p);
+          sum += static_cast<long double>(one.value);
+          bound += static_cast<long double>(one.bound);
+        }
+        CAPTURE(p.x);
+        CAPTURE(p.y);
+        // One rounding of the whole sum, below 1.
+        CHECK(std::fabs(static_cast<long double>(all.value) - sum) <=
+              bound + static_cast<long double>(all.bound) + 0x1p-53L);
+        CHECK(static_cast<long double>(all.bound) <= bound + 0x1p-50L);
+      }
+    }
+  }
+
+  TEST_CASE("the pixels of disks sum to their area for filters that are partitions of unity") {
+    Random random(32);
+    // With room around for every window; tiny disks and touching ones among them.
+    const std::vector<GivenCircle> sets[] = {moved(test::random_disks(random, 200, 24, 0, 0.9), 8),
+                                             moved(test::random_disks(random, 200, 24, 0.9, 1), 8)};
+    int partitions = 0;
+    for (const std::string& text : test::separable_texts()) {
+      if (oracle::Kernel(text).ripple() > 1e-14L) continue;
+      const Filter filter(parse_spec(text, "test"));
+      CAPTURE(text);
+      ++partitions;
+      for (const auto& disks : sets) {
+        const TestImage scene = scenes::disks(test::rows_of(disks), {40, 40});
+        const ActiveRows rows = enumerate(scene, filter.radius());
+        const Reference reference = exact(scene, filter, rows);
+        long double sum = 0;
+        for (const double v : reference.value) sum += static_cast<long double>(v);
+        for (int y = 0; y < 40; ++y)
+          for (const Run& run : rows.row(y))
+            if (run.cover == Cover::all) sum += static_cast<long double>(run.x1 - run.x0);
+        // The promise of moire for totals.
+        CHECK(static_cast<double>(std::fabs(sum / area_of(disks) - 1)) <= 1e-13);
+      }
+    }
+    CHECK(partitions >= 5);  // box, tent, B-splines, mitchell, catmull-rom at least
   }
 }
 

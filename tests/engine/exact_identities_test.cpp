@@ -104,24 +104,6 @@ void check_equal(Exact a, double truth, Exact b = {}) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("the pixels of a disk sum to its area for filters that are partitions of unity, radius 0.1 to 300") {
-    std::vector<std::string> met;
-    for (const Filter& filter : every_filter()) {
-      if (filter.is_radial() || ripple(filter.kernel()) > 1e-14) continue;
-      met.push_back(filter.text());
-      CAPTURE(filter.text());
-      for (const double radius : {0.1, 0.25, 0.31, 0.5, 1.0, 3.3, 17.7, 100.0, 300.0})
-        for (const Vec2 offset : kOffsets) {
-          CAPTURE(radius);
-          CHECK(total_error(radius, offset, filter) <= kTotal);
-        }
-    }
-    for (const std::string text : kPartitions) {
-      CAPTURE(text);
-      CHECK(std::find(met.begin(), met.end(), text) != met.end());
-    }
-  }
-
   TEST_CASE("the pixels of a small disk sum to its area, radius 1e-6 to 0.1") {
     for (const Filter& filter : every_filter()) {
       if (filter.is_radial() || ripple(filter.kernel()) > 1e-14) continue;
@@ -234,6 +216,46 @@ TEST_SUITE("unit") {
     }
   }
 
+  TEST_CASE("white squares and black squares make the whole board") {
+    // The black squares are the board moved by one square in u; homography and rim are exact in double.
+    const double a = 0.375, b = 0.125, c = 0.75, g = 0x1p-6;
+    const auto homography = [&](double shift) {
+      return std::vector<double>{a + shift * g, b + shift * g, c + shift, -b, a, 0.5, g, g, 1};
+    };
+    // The whole board is one square of a plane scaled down by 8: u from 0 to 8 there, v likewise.
+    const std::vector<double> scaled{a / 8, b / 8, c / 8, -b / 8, a / 8, 0.5 / 8, g, g, 1};
+    for (const Filter& filter : every_filter()) {
+      CAPTURE(filter.text());
+      for (int y = -4; y < 24; y += 3)
+        for (int x = -4; x < 24; ++x) {
+          const Exact white = exact_pixel(scenes::board(homography(0), {0, 8, 0, 8}), filter, {x, y});
+          const Exact black = exact_pixel(scenes::board(homography(1), {1, 9, 0, 8}), filter, {x, y});
+          const Exact whole = exact_pixel(scenes::board(scaled, {0, 1, 0, 1}), filter, {x, y});
+          check_equal({white.value + black.value, white.bound + black.bound}, 0, whole);
+        }
+    }
+  }
+}
+
+TEST_SUITE("heavy") {
+  TEST_CASE("the pixels of a disk sum to its area for filters that are partitions of unity, radius 0.1 to 300") {
+    std::vector<std::string> met;
+    for (const Filter& filter : every_filter()) {
+      if (filter.is_radial() || ripple(filter.kernel()) > 1e-14) continue;
+      met.push_back(filter.text());
+      CAPTURE(filter.text());
+      for (const double radius : {0.1, 0.25, 0.31, 0.5, 1.0, 3.3, 17.7, 100.0, 300.0})
+        for (const Vec2 offset : kOffsets) {
+          CAPTURE(radius);
+          CHECK(total_error(radius, offset, filter) <= kTotal);
+        }
+    }
+    for (const std::string text : kPartitions) {
+      CAPTURE(text);
+      CHECK(std::find(met.begin(), met.end(), text) != met.end());
+    }
+  }
+
   TEST_CASE("the values of an image are those of its pixels, bit for bit, and its bound is their largest") {
     const TestImage scenes_of_all_kinds[] = {
         scenes::edge({20.3, 31.7}, {0.6, -0.7}, {48, 40}), scenes::disk({22.1, 18.4}, 13.7, {48, 40}),
@@ -257,26 +279,6 @@ TEST_SUITE("unit") {
         CHECK(different == 0);
         CHECK(image.max_bound == largest);
       }
-  }
-
-  TEST_CASE("white squares and black squares make the whole board") {
-    // The black squares are the board moved by one square in u; homography and rim are exact in double.
-    const double a = 0.375, b = 0.125, c = 0.75, g = 0x1p-6;
-    const auto homography = [&](double shift) {
-      return std::vector<double>{a + shift * g, b + shift * g, c + shift, -b, a, 0.5, g, g, 1};
-    };
-    // The whole board is one square of a plane scaled down by 8: u from 0 to 8 there, v likewise.
-    const std::vector<double> scaled{a / 8, b / 8, c / 8, -b / 8, a / 8, 0.5 / 8, g, g, 1};
-    for (const Filter& filter : every_filter()) {
-      CAPTURE(filter.text());
-      for (int y = -4; y < 24; y += 3)
-        for (int x = -4; x < 24; ++x) {
-          const Exact white = exact_pixel(scenes::board(homography(0), {0, 8, 0, 8}), filter, {x, y});
-          const Exact black = exact_pixel(scenes::board(homography(1), {1, 9, 0, 8}), filter, {x, y});
-          const Exact whole = exact_pixel(scenes::board(scaled, {0, 1, 0, 1}), filter, {x, y});
-          check_equal({white.value + black.value, white.bound + black.bound}, 0, whole);
-        }
-    }
   }
 }
 

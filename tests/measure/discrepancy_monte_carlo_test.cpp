@@ -187,7 +187,9 @@ TEST_SUITE("unit") {
         CHECK(std::fabs(2.0 * static_cast<double>(n) * expected_edge_l2_squared_n_rooks(n, law) -
                         (1.0 / 3 - apart[static_cast<std::size_t>(law)])) < 1.0 / static_cast<double>(n));
   }
+}
 
+TEST_SUITE("heavy") {
   TEST_CASE("the mean over 1,000 draws of random, jittered and N-rooks points is the expected square") {
     // 28 comparisons within 3 standard errors: fails for one seed in 14.
     constexpr int kTrials = 1000;

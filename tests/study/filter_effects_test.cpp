@@ -68,47 +68,6 @@ Study study_with(const std::string& measures) { return parse_study("measures = "
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("errors against coverage are those of whole images, for every filter, scene and kind of rendering") {
-    const Filter unit_box(parse_spec("box", "test"));
-    const Pattern pattern(PatternChoice(parse_spec("jittered", "test")), 4, Draw{1, 0});
-    for (const auto& [name, scene] : test::scene_catalogue({20, 18})) {
-      const Truth box = find_truth(scene, unit_box);
-      const std::vector<double> coverage = dense(box.rows, exact_image(box));
-      for (const char* text : {"box", "box:width=0.25", "box:width=0.9", "tent", "mitchell", "lanczos"}) {
-        CAPTURE(name);
-        CAPTURE(text);
-        const Filter filter(parse_spec(text, "test"));
-        const Truth truth = find_truth(scene, filter);
-        const Rendered images[] = {exact_image(truth), render(scene, pattern, filter, Estimator::ratio, truth.rows),
-                                   render(scene, pattern, filter, Estimator::unnormalised, truth.rows),
-                                   render(scene, pattern, filter, Estimator::ratio, truth.rows, true)};
-        for (const Rendered& image : images) {
-          const std::vector<double> got = dense(truth.rows, image);
-          double all = 0, active = 0;
-          std::int64_t n_active = 0;
-          const int width = scene.grid().width;
-          for (std::size_t i = 0; i < got.size(); ++i) {
-            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-            const double square = (got[i] - coverage[i]) * (got[i] - coverage[i]);
-            all += square;
-            if (!is_active(truth.rows, x, y) && !is_active(box.rows, x, y)) continue;
-            active += square;
-            ++n_active;
-          }
-          const CoverageErrors errors = coverage_errors(truth.rows, image, box);
-          CHECK(errors.all.n_pixels == static_cast<std::int64_t>(got.size()));
-          CHECK(errors.active.n_pixels == n_active);
-          // The plain sums here err by a unit per addition.
-          const double rounding = kRounding * static_cast<double>(got.size());
-          CHECK(errors.all.mse == doctest::Approx(all / static_cast<double>(got.size())).epsilon(rounding));
-          if (n_active > 0) {
-            CHECK(errors.active.mse == doctest::Approx(active / static_cast<double>(n_active)).epsilon(rounding));
-          }
-        }
-      }
-    }
-  }
-
   TEST_CASE("the box filter itself changes nothing, and every other filter does") {
     const TestImage scene = scenes::disk({15.7, 14.2}, 9.25, {32, 28});
     const Filter unit_box(parse_spec("box", "test"));
@@ -124,42 +83,6 @@ TEST_SUITE("unit") {
       // and one that differs from the box by a hundredth changes those on the border by about that.
       CHECK(change > 0.01 * 58 / 896);
       CHECK(change < 1);
-    }
-  }
-
-  TEST_CASE("the flat field of independent samples is as noisy as theory says, for every separable filter") {
-    for (const std::string& text : filter_variants(Symmetry::separable)) {
-      CAPTURE(text);
-      const Filter filter(parse_spec(text, "test"));
-      const Kernel& k = filter.kernel();
-      // E by the midpoint rule, M from K; the rule's error is far below the tolerance.
-      double square = 0, mass = 0;
-      constexpr int kSteps = 20000;
-      const double step = 2 * k.radius() / kSteps;
-      for (int i = 0; i < kSteps; ++i) {
-        const double at = k.k(-k.radius() + (i + 0.5) * step);
-        square += at * at * step;
-      }
-      for (int i = -filter.apron(); i <= filter.apron(); ++i) {
-        const double m = k.K(i + 0.5) - k.K(i - 0.5);
-        mass += m * m;
-      }
-      constexpr int kSpp = 16, kTrials = 4;
-      const double theory = (square * square - mass * mass) / kSpp;
-      double measured = 0;
-      for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
-        const Pattern random(PatternChoice(parse_spec("random", "test")), kSpp, Draw{3, trial});
-        const double rms = flat_field_rms(random, filter);
-        measured += rms * rms / kTrials;
-      }
-      if (k.is_unit_box()) {
-        CHECK(measured == 0);  // counts are exact
-        continue;
-      }
-      // 4 x 1024 pixels of which about (2R)^2 share samples: the variance of a mean square is 2 (2R)^2 / 4096 of its
-      // square at most; four standard deviations.
-      const double spread = 4 * std::sqrt(2 * std::max(1.0, 4 * k.radius() * k.radius()) / (kTrials * 1024.0));
-      CHECK(std::fabs(measured / theory - 1) < spread);
     }
   }
 
@@ -277,5 +200,84 @@ TEST_SUITE("unit") {
     CHECK(mean.number("overshoot_got") == std::max(first.number("overshoot_got"), second.number("overshoot_got")));
     CHECK(summary.filters.size() == 6);
     CHECK(summarize(run(study_with("[\"error\"]"), plan(study), {}).rows).filters.empty());
+  }
+}
+
+TEST_SUITE("heavy") {
+  TEST_CASE("errors against coverage are those of whole images, for every filter, scene and kind of rendering") {
+    const Filter unit_box(parse_spec("box", "test"));
+    const Pattern pattern(PatternChoice(parse_spec("jittered", "test")), 4, Draw{1, 0});
+    for (const auto& [name, scene] : test::scene_catalogue({20, 18})) {
+      const Truth box = find_truth(scene, unit_box);
+      const std::vector<double> coverage = dense(box.rows, exact_image(box));
+      for (const char* text : {"box", "box:width=0.25", "box:width=0.9", "tent", "mitchell", "lanczos"}) {
+        CAPTURE(name);
+        CAPTURE(text);
+        const Filter filter(parse_spec(text, "test"));
+        const Truth truth = find_truth(scene, filter);
+        const Rendered images[] = {exact_image(truth), render(scene, pattern, filter, Estimator::ratio, truth.rows),
+                                   render(scene, pattern, filter, Estimator::unnormalised, truth.rows),
+                                   render(scene, pattern, filter, Estimator::ratio, truth.rows, true)};
+        for (const Rendered& image : images) {
+          const std::vector<double> got = dense(truth.rows, image);
+          double all = 0, active = 0;
+          std::int64_t n_active = 0;
+          const int width = scene.grid().width;
+          for (std::size_t i = 0; i < got.size(); ++i) {
+            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+            const double square = (got[i] - coverage[i]) * (got[i] - coverage[i]);
+            all += square;
+            if (!is_active(truth.rows, x, y) && !is_active(box.rows, x, y)) continue;
+            active += square;
+            ++n_active;
+          }
+          const CoverageErrors errors = coverage_errors(truth.rows, image, box);
+          CHECK(errors.all.n_pixels == static_cast<std::int64_t>(got.size()));
+          CHECK(errors.active.n_pixels == n_active);
+          // The plain sums here err by a unit per addition.
+          const double rounding = kRounding * static_cast<double>(got.size());
+          CHECK(errors.all.mse == doctest::Approx(all / static_cast<double>(got.size())).epsilon(rounding));
+          if (n_active > 0) {
+            CHECK(errors.active.mse == doctest::Approx(active / static_cast<double>(n_active)).epsilon(rounding));
+          }
+        }
+      }
+    }
+  }
+
+  TEST_CASE("the flat field of independent samples is as noisy as theory says, for every separable filter") {
+    for (const std::string& text : filter_variants(Symmetry::separable)) {
+      CAPTURE(text);
+      const Filter filter(parse_spec(text, "test"));
+      const Kernel& k = filter.kernel();
+      // E by the midpoint rule, M from K; the rule's error is far below the tolerance.
+      double square = 0, mass = 0;
+      constexpr int kSteps = 20000;
+      const double step = 2 * k.radius() / kSteps;
+      for (int i = 0; i < kSteps; ++i) {
+        const double at = k.k(-k.radius() + (i + 0.5) * step);
+        square += at * at * step;
+      }
+      for (int i = -filter.apron(); i <= filter.apron(); ++i) {
+        const double m = k.K(i + 0.5) - k.K(i - 0.5);
+        mass += m * m;
+      }
+      constexpr int kSpp = 16, kTrials = 4;
+      const double theory = (square * square - mass * mass) / kSpp;
+      double measured = 0;
+      for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+        const Pattern random(PatternChoice(parse_spec("random", "test")), kSpp, Draw{3, trial});
+        const double rms = flat_field_rms(random, filter);
+        measured += rms * rms / kTrials;
+      }
+      if (k.is_unit_box()) {
+        CHECK(measured == 0);  // counts are exact
+        continue;
+      }
+      // 4 x 1024 pixels of which about (2R)^2 share samples: the variance of a mean square is 2 (2R)^2 / 4096 of its
+      // square at most; four standard deviations.
+      const double spread = 4 * std::sqrt(2 * std::max(1.0, 4 * k.radius() * k.radius()) / (kTrials * 1024.0));
+      CHECK(std::fabs(measured / theory - 1) < spread);
+    }
   }
 }

@@ -203,38 +203,6 @@ TEST_SUITE("unit") {
     CHECK(met > 1000);
   }
 
-  TEST_CASE("parts of a window add up, even and odd squares fill it, and u and v may be exchanged") {
-    Draw draw(43);
-    for (int i = 0; i < 40; ++i) {
-      View view = random_view(draw, i % 4 == 0 ? draw.uniform(-0.7, 0.7) : draw.log_uniform(0.5, 20));
-      // Multiples of 2^-40, so that rows can be added exactly.
-      for (double& x : view.h) x = std::round(x * 0x1p40) * 0x1p-40;
-      const LocalHomography local = localize(view.h, view.pixel, 0.5);
-      const Polygon window = BoardWindow(local, {}, 0.5).board;
-      if (window.empty()) continue;
-      const double pieces = 1000;
-      const BoxIntegral whole = board_series(local, window, pieces);
-      CAPTURE(i);
-
-      const double angle = draw.uniform(0, 7), c = draw.uniform(-0.3, 0.3);
-      Polygon left, right;
-      clip(window, {std::cos(angle), std::sin(angle), c}, left);
-      clip(window, {-std::cos(angle), -std::sin(angle), -c}, right);
-      const BoxIntegral a = board_series(local, left, pieces), b = board_series(local, right, pieces);
-      CHECK(std::fabs(a.value + b.value - whole.value) <= a.bound + b.bound + whole.bound + kRounded);
-
-      Matrix3 shifted = view.h, swapped = view.h;
-      for (std::size_t k = 0; k < 3; ++k) {
-        shifted[k] += view.h[6 + k];
-        std::swap(swapped[k], swapped[3 + k]);
-      }
-      const BoxIntegral odd = board_series(localize(shifted, view.pixel, 0.5), window, pieces);
-      CHECK(std::fabs(whole.value + odd.value - area_of(window)) <= whole.bound + odd.bound + kRounded);
-      const BoxIntegral other = board_series(localize(swapped, view.pixel, 0.5), window, pieces);
-      CHECK(std::fabs(whole.value - other.value) <= whole.bound + other.bound);
-    }
-  }
-
   TEST_CASE("what is left out towards the horizon is within its bound, where lines cross in step too") {
     // Columns at odd : odd multiples of the focal length from the vanishing point: both families of lines cross the
     // window's left side in step, and the tails do not cancel. The horizon is the side, a corner or the middle.
@@ -262,47 +230,6 @@ TEST_SUITE("unit") {
         }
     MESSAGE("largest difference over bound " << nearest << ", largest bound " << largest);
     CHECK(largest < 1e-9);
-  }
-
-  TEST_CASE("by parts along u and along v is the same under any weight, on the horizon too") {
-    // Two formulas with hardly a number in common, from the g_j to the integrals towards the horizon.
-    Draw draw(45);
-    int close = 0, cases = 0;
-    double worst = 0;
-    for (int i = 0; i < 80; ++i) {
-      const View view = random_view(draw, i % 2 == 0 ? draw.uniform(-0.7, 0.7) : draw.log_uniform(0.5, 5));
-      const LocalHomography local = localize(view.h, view.pixel, 0.5);
-      // Smooth weights: coefficients fall.
-      const int degree = static_cast<int>(draw.integer(0, 9));
-      std::vector<double> cx, cy;
-      for (int k = 0; k <= degree; ++k) {
-        cx.push_back(draw.uniform(-1, 1) * std::pow(0.3, k));
-        cy.push_back(draw.uniform(-1, 1) * std::pow(0.3, k));
-      }
-      const double x0 = draw.uniform(-1.5, 0), y0 = draw.uniform(-1.5, 0);
-      const PieceWeight x{x0, x0 + draw.uniform(0.3, 1.5), cx, 2, 0}, y{y0, y0 + draw.uniform(0.3, 1.5), cy, 2, 0};
-      const BoardWindow window(local, {}, Rect{{x.low, y.low}, {x.high, y.high}});
-      if (window.board.empty() || squares_met(local, window.board) < 20) continue;
-      double deepest = 0;
-      for (const Vec2 p : window.board) deepest = std::max(deepest, row_at(local.w, p).value());
-      CheckerSeries along_u(local.u, local.v, local.w, x, y, deepest),
-          along_v(local.v, local.u, local.w, x, y, deepest);
-      const double area = area_of(window.board) * (1 + 0x1p-40);
-      const SeriesAim aim{1e-14, 1e-11, 5000};
-      along_u.lay_out(window.board, area, aim);
-      along_v.lay_out(window.board, area, aim);
-      const Bounded u = along_u.integrate(), v = along_v.integrate();
-      CAPTURE(i);
-      CAPTURE(degree);
-      CHECK(std::fabs(u.value - v.value) <= u.error + v.error);
-      ++cases;
-      if (!(u.error + v.error < 1e-9)) continue;
-      ++close;
-      worst = std::max(worst, std::fabs(u.value - v.value));
-    }
-    MESSAGE(close << " of " << cases << " known to 1e-9 in both ways; largest difference there " << worst);
-    CHECK(cases > 50);
-    CHECK(close > 20);
   }
 
   TEST_CASE("a side in short stretches is what it is from line to line, and as well known as foreseen") {
@@ -369,6 +296,81 @@ TEST_SUITE("unit") {
     }
     MESSAGE("largest distance from one half, certainly " << largest);
     CHECK(largest > 1e-5);
+  }
+}
+
+TEST_SUITE("heavy") {
+  TEST_CASE("parts of a window add up, even and odd squares fill it, and u and v may be exchanged") {
+    Draw draw(43);
+    for (int i = 0; i < 40; ++i) {
+      View view = random_view(draw, i % 4 == 0 ? draw.uniform(-0.7, 0.7) : draw.log_uniform(0.5, 20));
+      // Multiples of 2^-40, so that rows can be added exactly.
+      for (double& x : view.h) x = std::round(x * 0x1p40) * 0x1p-40;
+      const LocalHomography local = localize(view.h, view.pixel, 0.5);
+      const Polygon window = BoardWindow(local, {}, 0.5).board;
+      if (window.empty()) continue;
+      const double pieces = 1000;
+      const BoxIntegral whole = board_series(local, window, pieces);
+      CAPTURE(i);
+
+      const double angle = draw.uniform(0, 7), c = draw.uniform(-0.3, 0.3);
+      Polygon left, right;
+      clip(window, {std::cos(angle), std::sin(angle), c}, left);
+      clip(window, {-std::cos(angle), -std::sin(angle), -c}, right);
+      const BoxIntegral a = board_series(local, left, pieces), b = board_series(local, right, pieces);
+      CHECK(std::fabs(a.value + b.value - whole.value) <= a.bound + b.bound + whole.bound + kRounded);
+
+      Matrix3 shifted = view.h, swapped = view.h;
+      for (std::size_t k = 0; k < 3; ++k) {
+        shifted[k] += view.h[6 + k];
+        std::swap(swapped[k], swapped[3 + k]);
+      }
+      const BoxIntegral odd = board_series(localize(shifted, view.pixel, 0.5), window, pieces);
+      CHECK(std::fabs(whole.value + odd.value - area_of(window)) <= whole.bound + odd.bound + kRounded);
+      const BoxIntegral other = board_series(localize(swapped, view.pixel, 0.5), window, pieces);
+      CHECK(std::fabs(whole.value - other.value) <= whole.bound + other.bound);
+    }
+  }
+
+  TEST_CASE("by parts along u and along v is the same under any weight, on the horizon too") {
+    // Two formulas with hardly a number in common, from the g_j to the integrals towards the horizon.
+    Draw draw(45);
+    int close = 0, cases = 0;
+    double worst = 0;
+    for (int i = 0; i < 80; ++i) {
+      const View view = random_view(draw, i % 2 == 0 ? draw.uniform(-0.7, 0.7) : draw.log_uniform(0.5, 5));
+      const LocalHomography local = localize(view.h, view.pixel, 0.5);
+      // Smooth weights: coefficients fall.
+      const int degree = static_cast<int>(draw.integer(0, 9));
+      std::vector<double> cx, cy;
+      for (int k = 0; k <= degree; ++k) {
+        cx.push_back(draw.uniform(-1, 1) * std::pow(0.3, k));
+        cy.push_back(draw.uniform(-1, 1) * std::pow(0.3, k));
+      }
+      const double x0 = draw.uniform(-1.5, 0), y0 = draw.uniform(-1.5, 0);
+      const PieceWeight x{x0, x0 + draw.uniform(0.3, 1.5), cx, 2, 0}, y{y0, y0 + draw.uniform(0.3, 1.5), cy, 2, 0};
+      const BoardWindow window(local, {}, Rect{{x.low, y.low}, {x.high, y.high}});
+      if (window.board.empty() || squares_met(local, window.board) < 20) continue;
+      double deepest = 0;
+      for (const Vec2 p : window.board) deepest = std::max(deepest, row_at(local.w, p).value());
+      CheckerSeries along_u(local.u, local.v, local.w, x, y, deepest),
+          along_v(local.v, local.u, local.w, x, y, deepest);
+      const double area = area_of(window.board) * (1 + 0x1p-40);
+      const SeriesAim aim{1e-14, 1e-11, 5000};
+      along_u.lay_out(window.board, area, aim);
+      along_v.lay_out(window.board, area, aim);
+      const Bounded u = along_u.integrate(), v = along_v.integrate();
+      CAPTURE(i);
+      CAPTURE(degree);
+      CHECK(std::fabs(u.value - v.value) <= u.error + v.error);
+      ++cases;
+      if (!(u.error + v.error < 1e-9)) continue;
+      ++close;
+      worst = std::max(worst, std::fabs(u.value - v.value));
+    }
+    MESSAGE(close << " of " << cases << " known to 1e-9 in both ways; largest difference there " << worst);
+    CHECK(cases > 50);
+    CHECK(close > 20);
   }
 }
 

@@ -198,12 +198,6 @@ TEST_SUITE("unit") {
     }
   }
 
-  TEST_CASE("tails and pieces agree up to what is left beyond the last piece") {
-    std::mt19937_64 random(4713);
-    for (int n = 0; n < 48; ++n) check_absolute(1 + n % 3, 3, line_of(100, some_ratio(n, random), random), 1000);
-    for (int n = 0; n < 12; ++n) check_absolute(1, 3, line_of(3000, some_ratio(n, random), random), 100);
-  }
-
   TEST_CASE("a coordinate that stands still is no trouble") {
     std::mt19937_64 random(4714);
     for (const double lines : {0.01, 1.0, 40.0, 1000.0}) {
@@ -295,6 +289,14 @@ TEST_SUITE("unit") {
       other.u = -other.u, other.du = -other.du;
       CHECK(agrees(other, q % 2 == 0 ? 1 : -1));
     }
+  }
+}
+
+TEST_SUITE("heavy") {
+  TEST_CASE("tails and pieces agree up to what is left beyond the last piece") {
+    std::mt19937_64 random(4713);
+    for (int n = 0; n < 48; ++n) check_absolute(1 + n % 3, 3, line_of(100, some_ratio(n, random), random), 1000);
+    for (int n = 0; n < 12; ++n) check_absolute(1, 3, line_of(3000, some_ratio(n, random), random), 100);
   }
 }
 
