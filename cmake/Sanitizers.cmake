@@ -9,9 +9,3 @@ target_link_options(moire_flags INTERFACE -fsanitize=${MOIRE_SANITIZE})
 function(moire_quick_to_compile target)
   target_compile_options(${target} PRIVATE -O0)
 endfunction()
-
-# moire_drives_others(TARGET): sources whose work is to start the program and read what it wrote. The program is what the
-# sanitizers watch; checks in these would double what they cost to compile.
-function(moire_drives_others target)
-  target_compile_options(${target} PRIVATE -fno-sanitize=all)
-endfunction()
