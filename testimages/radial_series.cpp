@@ -210,8 +210,8 @@ double RadialSeries::lines_across(double r, const DiskPart::Arc& arc) const {
   return lines;
 }
 
-// Of an arc that ends on the horizon the angle of its last side: from `least` to `most`, so that no more lines cross
-// the rest than may, to a hundredth.
+// Of an arc that ends on the horizon the angle of its last side: the smallest from `least` on, to a hundredth, so that
+// no more lines cross the rest than may; `most`, if it takes more.
 double RadialSeries::last_side(double r, const DiskPart::Arc& arc, double least, double most) const {
   const auto enough = [&](double last) { return lines_across(r, {arc.from, arc.to - last}) <= kMostLines; };
   double too_short = least, last = least;

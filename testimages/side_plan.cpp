@@ -13,9 +13,9 @@ namespace {
 // What of the stretch towards the horizon its integral leaves in doubt, for the choice of that stretch.
 constexpr double kTailShare = 1e-8;
 // A side that fewer lines cross is integrated between them to its end: an integral towards the horizon takes as long as
-// the first number of lines, its difference to another one, in front of the horizon, longer and to less avail. The
-// third number is for differences that leave more in doubt than is asked: a tenth of a microsecond a line at least.
-constexpr double kFewLines = 1000, kFewLinesInFront = 20000, kMostLinesInFront = 100000;
+// the first number of lines, its difference to another one, in front of the horizon, longer and to less avail. Where
+// such a difference leaves more in doubt than is asked, twice as many lines are worth their time.
+constexpr double kFewLines = 1000, kFewLinesInFront = 20000, kMostLinesInFront = 2 * kFewLinesInFront;
 // Of a side's largest W, from where on its noise puts its lines in doubt: on the horizon, or coordinates beyond 2^45.
 constexpr double kWInDoubt = 0x1p-54;
 // Into stretches of this length, in half lengths of the weight, the part that is left to integrals towards the horizon
@@ -27,8 +27,8 @@ constexpr double kShareOfDoubt = 0.25;
 // What a side with more than kFewLines may come to, as a share of what may be lost to all, without being integrated.
 constexpr double kNotWorth = 0.25;
 
-// An estimate for a side: of values as above; of places of jumps, each by 8 u of tau; of S - (k + 1/2) W, which at the
-// ends of the side is as large as its squares are many.
+// An estimate for a side: of the terms' values; of places of jumps, each by 8 units of rounding in tau; of
+// S - (k + 1/2) W, which at the ends of the side is as large as its squares are many.
 double rounding_on(const BoardSide& side, const SeriesTerms& terms) {
   const SeriesSizes& s = terms.sizes;
   const double w0 = std::max(side.w0.value(), 0.0), w1 = std::max(side.w1.value(), 0.0);
@@ -111,8 +111,9 @@ class Plans {
   SidePlan laid_out() const { return plan(side_, 1); }
 
   // As laid out, if that leaves no more than `share` in doubt; else in short stretches from the first lines on, if that
-  // does; else between all lines in front of the horizon, if they are not too many; else the better of short stretches
-  // from the first lines on, and as far as laid out.
+  // does; else between all lines in front of the horizon, if they are not too many; else in short stretches from the
+  // first lines on, if that is no worse than as laid out; else in short stretches as far as laid out, if that is
+  // better.
   SidePlan within(double share) const {
     SidePlan as = laid_out();
     if (settled() || as.doubt <= share) return as;

@@ -1,5 +1,5 @@
 // How a side of series_side.h is integrated: from line to line up to where, and the rest, towards the horizon, in how
-// many stretches. lay_out() and outlook() are here, too.
+// many stretches. Its file has lay_out() and outlook(), too.
 #pragma once
 
 #include "testimages/board_side.h"
