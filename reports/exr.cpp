@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "reports/image_io.h"
 #include "reports/image_size.h"
@@ -27,6 +29,37 @@ void set_attribute(OIIO::ImageSpec& spec, const Attribute& attribute) {
   }
 }
 
+std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t at) {
+  return bytes[at] | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
+         std::uint32_t{bytes[at + 3]} << 24;
+}
+
+std::string refuse_channels(std::int64_t count) {
+  return count == 1 ? "" : "has " + std::to_string(count) + " channels instead of one";
+}
+
+// What is wrong with one attribute's value, "" when nothing is. OpenEXR takes memory for some rows of all channels
+// before anybody can ask for the image's size.
+std::string refuse_attribute(std::string_view name, std::span<const unsigned char> value) {
+  if (name == "dataWindow" && value.size() == 16) {  // the first and last column and row, two's complement
+    const auto side = [&](std::size_t at) {
+      return std::int64_t{static_cast<std::int32_t>(word_at(value, at + 8))} -
+             static_cast<std::int32_t>(word_at(value, at)) + 1;
+    };
+    return refuse_size(side(0), side(4));
+  }
+  if (name == "channels") {  // each a name, its 0 and 16 bytes; then a 0
+    std::int64_t count = 0;
+    while (!value.empty() && value[0] != 0) {
+      const auto length = static_cast<std::size_t>(std::find(value.begin(), value.end(), 0) - value.begin());
+      value = value.subspan(std::min(value.size(), length + 1 + 16));
+      ++count;
+    }
+    return refuse_channels(count);
+  }
+  return {};
+}
+
 // What is wrong with the headers, "" when nothing is. OpenEXR takes as much memory as an attribute claims to be long,
 // up to 2 GiB, before it looks whether there are as many bytes. Layout: "OpenEXR File Layout" (openexr.com): eight
 // bytes, then attributes (name, 0, type, 0, four bytes of length, value) up to an empty name; of files with several
@@ -37,23 +70,25 @@ std::string refuse_attributes(std::span<const unsigned char> bytes) {
   if (bytes.size() < kBegin) return "is too short for an EXR file";
   const bool several = (bytes[5] & kSeveralParts) != 0;
   std::span<const unsigned char> rest = bytes.subspan(kBegin);
-  const auto skip_name = [&rest] {  // to behind its 0
+  const auto take_name = [&rest](std::string& name) {  // to behind its 0
     const auto end = std::find(rest.begin(), rest.end(), 0);
     const auto length = static_cast<std::size_t>(end - rest.begin());
     if (end == rest.end() || length > kLongestName) return false;
+    name.assign(rest.begin(), end);
     rest = rest.subspan(length + 1);
     return true;
   };
+  std::string name, type;
   for (bool first = true; !rest.empty(); first = false) {
     if (rest[0] == 0) {  // the end of a header
       rest = rest.subspan(1);
       if (!several || first || rest.empty() || rest[0] == 0) return {};
       continue;
     }
-    if (!skip_name() || !skip_name() || rest.size() < 4) break;
-    const std::uint32_t length =
-        rest[0] | std::uint32_t{rest[1]} << 8 | std::uint32_t{rest[2]} << 16 | std::uint32_t{rest[3]} << 24;
+    if (!take_name(name) || !take_name(type) || rest.size() < 4) break;
+    const std::uint32_t length = word_at(rest, 0);
     if (length > rest.size() - 4) break;
+    if (std::string refused = refuse_attribute(name, rest.subspan(4, length)); !refused.empty()) return refused;
     rest = rest.subspan(4 + length);
   }
   return "is no EXR file, or its header is damaged";
@@ -95,10 +130,10 @@ std::string read_exr_file(std::span<const unsigned char> bytes, ExrImage& image)
   if (!in->open("image.exr", spec)) return in->geterror();
   if (std::string refused = refuse_size(spec); !refused.empty()) return refused;
   if (spec.deep) return "is a deep image; give a flat one";
-  if (spec.nchannels != 1) return "has " + std::to_string(spec.nchannels) + " channels instead of one";
+  if (std::string refused = refuse_channels(spec.nchannels); !refused.empty()) return refused;
   image.grid = {spec.width, spec.height};
   image.y.resize(spec.image_pixels());
-  if (!in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, image.y.data())) return in->geterror();
+  if (!read_pixels(*in, spec, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT), image.y.data())) return in->geterror();
   image.attributes.clear();
   for (const OIIO::ParamValue& p : spec.extra_attribs) {
     const std::string name = p.name().string();

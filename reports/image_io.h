@@ -13,7 +13,7 @@ namespace moire {
 using ImageBytes = std::vector<unsigned char>;
 
 // Pixels of an image that is read. What its first bytes promise is held against this before memory is taken.
-inline constexpr std::int64_t kMaxReadPixels = std::int64_t{1} << 26;
+inline constexpr std::int64_t kMaxReadPixels = std::int64_t{1} << 26, kMaxReadSide = std::int64_t{1} << 20;
 
 // Each returns what went wrong, empty when nothing did. Files are written to memory: a full disk is noticed by whoever
 // puts the bytes there, which not every format's writer does. They are read from memory, as the one format of the

@@ -58,7 +58,7 @@ std::string read_png_file(std::span<const unsigned char> bytes, Raster& raster) 
   raster.grid = {spec.width, spec.height};
   raster.channels = spec.nchannels;
   raster.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raster.pixels.data())) return in->geterror();
+  if (!read_pixels(*in, spec, OIIO::TypeDesc(OIIO::TypeDesc::UINT8), raster.pixels.data())) return in->geterror();
   raster.text.clear();
   for (const OIIO::ParamValue& p : spec.extra_attribs) {
     if (p.type() == OIIO::TypeDesc::STRING) raster.text.emplace_back(p.name().string(), p.get_string(0));

@@ -133,6 +133,9 @@ TEST_SUITE("cli") {
         "abc",
         31);
     check_refused({"spectrum", folder.write("huge.exr", attribute)}, 3, "its header is damaged");
+    // 24 million pixels in three rows, in 290 bytes: a buffer for 256 rows took 8.3 GB.
+    check_refused({"spectrum", std::string(MOIRE_SEEDS) + "/image/wide.exr"}, 3,
+                  "has 8126468 x 3 pixels; at most 67108864 can be read, 1048576 a side");
     // Read as whatever its bytes said, by one of some thirty readers.
     check_refused({"spectrum", folder.write("other.png", "GIF89a\x01\0\x01\0\0\0\0;")}, 3, "cannot be read");
   }

@@ -65,7 +65,7 @@ std::string text_of(const Raster& raster, const std::string& keyword) {
 TEST_SUITE("io") {
   TEST_CASE("EXR keeps every bit of every pixel, special values too") {
     const Folder folder;
-    for (const Grid grid : {Grid{1, 1}, Grid{14, 1}, Grid{1, 40}, Grid{67, 53}}) {
+    for (const Grid grid : {Grid{1, 1}, Grid{14, 1}, Grid{1, 40}, Grid{67, 53}, Grid{1 << 20, 2}}) {
       const auto y = hard_pixels(static_cast<std::size_t>(grid.width * grid.height));
       write_exr(folder.file("a.exr"), grid, y, kAttributes);
       const ExrImage back = read_exr(folder.file("a.exr"));
