@@ -6,6 +6,7 @@
 
 #include "reports/image_io.h"
 #include "reports/image_size.h"
+#include "reports/memory_reader.h"
 
 namespace moire {
 namespace {
@@ -48,7 +49,7 @@ std::string write_png_file(const Raster& raster, const std::string& software, Im
 
 std::string read_png_file(std::span<const unsigned char> bytes, Raster& raster) {
   if (std::string refused = refuse_chunks(bytes); !refused.empty()) return refused;
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives the reader
+  MemoryReader memory(bytes);  // outlives the reader
   const auto in = OIIO::ImageInput::create("png");
   if (!in) return OIIO::geterror();
   if (!in->set_ioproxy(&memory)) return "this OpenImageIO cannot read PNG from memory";

@@ -14,8 +14,9 @@ namespace {
 constexpr double kTailShare = 1e-8;
 // A side that fewer lines cross is integrated between them to its end: an integral towards the horizon takes as long as
 // the first number of lines, its difference to another one, in front of the horizon, longer and to less avail. Where
-// such a difference leaves more in doubt than is asked, twice as many lines are worth their time.
-constexpr double kFewLines = 1000, kFewLinesInFront = 20000, kMostLinesInFront = 2 * kFewLinesInFront;
+// such a difference leaves more in doubt than is asked, five times as many lines are worth their time: some 0.1 us
+// each.
+constexpr double kFewLines = 1000, kFewLinesInFront = 20000, kMostLinesInFront = 5 * kFewLinesInFront;
 // Of a side's largest W, from where on its noise puts its lines in doubt: on the horizon, or coordinates beyond 2^45.
 constexpr double kWInDoubt = 0x1p-54;
 // Into stretches of this length, in half lengths of the weight, the part that is left to integrals towards the horizon
