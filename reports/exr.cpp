@@ -123,7 +123,7 @@ std::string write_exr_file(Grid grid, std::span<const float> y, const std::vecto
 
 std::string read_exr_file(std::span<const unsigned char> bytes, ExrImage& image) {
   if (std::string refused = refuse_attributes(bytes); !refused.empty()) return refused;
-  MemoryReader memory(bytes);  // outlives the reader
+  MemoryReader<OIIO::Filesystem::IOMemReader> memory(bytes);  // outlives the reader
   const auto in = OIIO::ImageInput::create("exr");
   if (!in) return OIIO::geterror();
   if (!in->set_ioproxy(&memory)) return "this OpenImageIO cannot read EXR from memory";

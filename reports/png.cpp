@@ -49,7 +49,7 @@ std::string write_png_file(const Raster& raster, const std::string& software, Im
 
 std::string read_png_file(std::span<const unsigned char> bytes, Raster& raster) {
   if (std::string refused = refuse_chunks(bytes); !refused.empty()) return refused;
-  MemoryReader memory(bytes);  // outlives the reader
+  MemoryReader<OIIO::Filesystem::IOMemReader> memory(bytes);  // outlives the reader
   const auto in = OIIO::ImageInput::create("png");
   if (!in) return OIIO::geterror();
   if (!in->set_ioproxy(&memory)) return "this OpenImageIO cannot read PNG from memory";
