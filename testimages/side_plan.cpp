@@ -107,31 +107,29 @@ double lines_of(const BoardSide& side) {
 class Plans {
  public:
   Plans(const BoardSide& side, const SideWeight& weight, const SeriesTerms& terms, const SeriesNoise& noise)
-      : side_(side), weight_(weight), terms_(terms), noise_(noise) {}
+      : side_(side), weight_(weight), terms_(terms), noise_(noise), laid_out_(plan(side, 1)) {}
 
-  SidePlan laid_out() const { return plan(side_, 1); }
+  const SidePlan& laid_out() const { return laid_out_; }
 
   // As laid out, if that leaves no more than `share` in doubt; else in short stretches from the first lines on, if that
   // does; else between all lines in front of the horizon, if they are not too many; else in short stretches from the
   // first lines on, if that is no worse than as laid out; else in short stretches as far as laid out, if that is
   // better.
   SidePlan within(double share) const {
-    SidePlan as = laid_out();
-    if (settled() || as.doubt <= share) return as;
+    if (settled() || laid_out_.doubt <= share) return laid_out_;
     SidePlan few = few_lines();
     if (few.doubt <= share) return few;
     const double w0 = side_.w0.value();
     if (w0 > noise_.w && side_.lines_beyond(w0) <= kMostLinesInFront) return to_its_end();
-    if (few.doubt <= as.doubt) return few;
+    if (few.doubt <= laid_out_.doubt) return few;
     SidePlan cut = plan(side_, short_stretches(side_));
-    return cut.doubt < as.doubt ? cut : as;
+    return cut.doubt < laid_out_.doubt ? cut : laid_out_;
   }
 
   // As within(), but never between many lines.
   SidePlan quick(double share) const {
-    if (settled()) return laid_out();
-    SidePlan as = laid_out();
-    return as.doubt <= share && lines_of(side_) <= kFewLinesInFront ? as : few_lines();
+    if (settled() || (laid_out_.doubt <= share && lines_of(side_) <= kFewLinesInFront)) return laid_out_;
+    return few_lines();
   }
 
  private:
@@ -162,6 +160,7 @@ class Plans {
   const SideWeight& weight_;
   const SeriesTerms& terms_;
   const SeriesNoise& noise_;
+  const SidePlan laid_out_;
 };
 
 }  // namespace

@@ -176,6 +176,7 @@ TEST_SUITE("unit") {
   }
 }
 
+// Too slow under sanitizers.
 TEST_SUITE("heavy") {
   TEST_CASE("the samples of crossed cells suffice: every pixel of hard scenes has the count of all its samples") {
     const Scenes scenes = hard_scenes();
@@ -195,10 +196,7 @@ TEST_SUITE("heavy") {
       }
     }
   }
-}
 
-// Too slow under sanitizers.
-TEST_SUITE("heavy") {
   TEST_CASE("skipping inside a pixel changes no bit: every pattern and estimator on every scene under the unit box") {
     const Filter box(parse_spec("box", "test"));
     std::vector<PatternChoice> choices = patterns_with_cells();
